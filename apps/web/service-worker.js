@@ -7,7 +7,7 @@ const files = ['FILES'];
 // Large files used by few visitors, or late: cached when first used.
 const onDemand = /\/assets\/studio\/|\/models\/(leaf|filmed)/;
 
-// Nor is the module that this browser does not run. The probe is that of native.ts.
+// The WebAssembly module that this browser does not run is not cached. The probe is that of native.ts.
 const simd = WebAssembly.validate(
   new Uint8Array([
     0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11,

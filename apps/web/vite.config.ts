@@ -7,7 +7,7 @@ import { defineConfig, type HtmlTagDescriptor, type Plugin } from 'vite';
 
 const here = import.meta.dirname;
 
-/** No other host, and only the page's own scripts. WebAssembly is allowed by name; models are saved from blobs. */
+/** Content security policy: the page's own scripts, styles and pictures, WebAssembly, and no other host. */
 const POLICY = [
   "default-src 'none'",
   "script-src 'self' 'wasm-unsafe-eval'",
@@ -23,8 +23,8 @@ const POLICY = [
 ].join('; ');
 
 /**
- * The page with its policy; without indentation, which costs 35 bytes of transfer; and with an absolute address of the
- * picture for programs that preview links, where WISP_ADDRESS is the page's location.
+ * Adds the policy to the page and removes the indentation, which costs 35 bytes of transfer. Where WISP_ADDRESS is the
+ * page's location, makes the address of the preview picture absolute, for programs that preview links.
  */
 function page(): Plugin {
   const address = process.env.WISP_ADDRESS ?? '';
@@ -77,7 +77,7 @@ function serviceWorker(): Plugin {
   };
 }
 
-/** Removes comments, blanks and redundant zeros from shaders, and has FETCH_WITH in place of Vite's own. */
+/** Removes comments, blanks and redundant zeros from shaders, and replaces Vite's preload helper by FETCH_WITH. */
 function shorter(): Plugin {
   return {
     name: 'wisp-shorter',
@@ -97,7 +97,7 @@ function shorter(): Plugin {
   };
 }
 
-/** Fetches a part's scripts with it, and its style sheets before it runs. Vite's own helper supports more browsers and is 450 bytes larger. */
+/** Preload helper: fetches a part's scripts, and its style sheets before it runs. Vite's own is 450 bytes larger. */
 const FETCH_WITH = `
 const asked = {};
 export const __vitePreload = (load, files = [], from) =>

@@ -1,7 +1,7 @@
 // Renders the card that chat programs make of a link: title, description and og:image from the head of the page, in a
 // mock conversation.
 //
-//     npm run card --workspace apps/web -- [ADDRESS] [PICTURE.png]        default: the built page, card.png in the folder for temporary files
+//     npm run card --workspace apps/web -- [ADDRESS] [PICTURE.png]      default: the built page, card.png
 
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';

@@ -1,6 +1,7 @@
-// The filmed flames of the viewing test: two seconds each, from recordings of the candle rig that no shipped model has seen.
+// The filmed flames of the viewing test: two seconds each, of candle rig recordings that no shipped model has seen.
 //
-//     for k in 1 2 3; do wisp simulate candle -o f$k.mp4 --seconds 40 --seed 61300$k && wisp capture flame f$k.mp4 -o f$k.csv; done
+//     for k in 1 2 3; do
+//       wisp simulate candle -o f$k.mp4 --seconds 40 --seed 61300$k && wisp capture flame f$k.mp4 -o f$k.csv; done
 //     node apps/web/bench/filmed.js f1.csv f2.csv f3.csv        writes apps/web/public/models/filmed.json
 
 import { readFileSync, writeFileSync } from 'node:fs';

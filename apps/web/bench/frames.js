@@ -1,5 +1,5 @@
-// Measures the milliseconds per frame of the page's own work (models, poses, data for the graphics card) with one candle,
-// a cake, one leaf and 400 leaves, and the time to the first picture.
+// Measures the milliseconds per frame of the page's own work (models, poses, data for the graphics card) with one
+// candle, a cake, one leaf and 400 leaves, and the time to the first picture.
 //
 //     npm run bench --workspace apps/web [-- SECONDS]      seconds per scene; default 6
 //

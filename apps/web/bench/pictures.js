@@ -1,4 +1,4 @@
-// Takes pictures of every state of the page, at the sizes of a phone, a laptop and a large screen. No test compares them.
+// Takes pictures of every state of the page, as on a phone, a laptop and a large screen. No test compares them.
 //
 //     npm run pictures --workspace apps/web -- FOLDER [STATE…] [--size 390x844]…      default: all states, all sizes
 

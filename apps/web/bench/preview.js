@@ -73,8 +73,8 @@ async function inMessages() {
 }
 
 /**
- * Joins pictures into one endlessly repeated WebP of whole frames: encoders of differences leave visible rectangles in dark
- * pictures. Container: https://developers.google.com/speed/webp/docs/riff_container
+ * Joins pictures into one endlessly repeated WebP of whole frames: encoders of differences leave visible rectangles in
+ * dark pictures. Container: https://developers.google.com/speed/webp/docs/riff_container
  */
 function animated(pictures, width, height) {
   const chunk = (name, ...parts) => {

@@ -1,6 +1,6 @@
-// Whether memory stays flat: leaves and a cake run, wind comes and goes, and the heap is looked at after collections.
+// Checks that memory stays flat: leaves and a cake run, wind comes and goes, and the collected heap is measured.
 //
-//     npm run soak --workspace apps/web [-- MINUTES]      default 10; ends with status 1 when it grew by more than a tenth
+//     npm run soak --workspace apps/web [-- MINUTES]      default 10; status 1 if the heap grew by over 10 %
 
 import { openBrowser, skip } from '../tests/browser.js';
 
@@ -21,7 +21,7 @@ const session = await page.context().newCDPSession(page);
 await session.send('Performance.enable');
 const seen = [];
 for (let look = 0; look <= looks; ++look) {
-  // Every kind of thing that happens: other scenes, blowing, lighting, the drawer, other models.
+  // Every kind of action: other scenes, blowing, lighting, the drawer, other models.
   for (const key of look % 2 === 0 ? ['2', 'i', 'l', 'i'] : ['1', '+', 'l', 'i', 'n', 'i', '-']) await page.keyboard.press(key);
   await page.focus('#stage');
   await page.keyboard.down('Space');

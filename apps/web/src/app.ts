@@ -19,7 +19,7 @@ import type { Parts } from './late.js';
 /** Modules not needed for the first flame. */
 type Late = typeof import('./late.js');
 
-/** Wind from which a breath counts as intended. */
+/** Minimum wind at which the page says that a model was learned without wind. */
 const BLOWN = 0.3;
 
 /** CSS pixels covered by the controls at the lower edge. */
@@ -28,7 +28,7 @@ const COVERED = 118;
 /** Speed of time for visitors who prefer reduced motion. */
 const SLOW = 0.4;
 
-/** Seconds of play until the flame ducks once, duration of that breath, and maximum seconds counted per frame. */
+/** Breath of a visitor's arrival: seconds of play before it, its duration, and maximum seconds counted per frame. */
 const DUCKS = { after: 0.7, lasts: 0.26, frame: 0.1 };
 
 /** Rotation of the eye round the candle per key press, radians. */
@@ -63,9 +63,9 @@ export class App {
   private readonly received: boolean;
   private wasLit = true;
   private heardState: Hearing = 'off';
-  /** model for which wind was last offered */
+  /** model for which borrowed wind was last offered */
   private offered: Playing | null = null;
-  /** Seconds of play since the visitor's breath began; negative before it begins. */
+  /** Seconds of play since the breath of arrival began; negative before it begins. */
   private duckFrom = Infinity;
 
   constructor(
@@ -103,7 +103,7 @@ export class App {
     this.stage.loop.start();
     await this.playChosen();
     this.hint.show(START_HINT, 12);
-    // An overlay has no buttons to press.
+    // An overlay has no buttons, so its microphone opens at once.
     if (this.overlay) this.toggleMicrophone();
   }
 
@@ -162,7 +162,7 @@ export class App {
     try {
       await this.player.playChosen();
     } catch (error) {
-      // Late modules are loaded once something plays.
+      // Reported by the late modules, which are loaded once something plays.
       if (this.player.playing === null) await this.player.playShipped();
       this.soon((late) => late.sayWrong(this, error));
     }
@@ -182,7 +182,7 @@ export class App {
     this.late().then(act, (error: Error) => this.notices.say(error.message));
   }
 
-  /** Plays a file, or opens the studio with what it learns from. */
+  /** Plays a dropped model, or opens the studio with dropped films, pictures or tables. */
   take(dropped: Dropped): void {
     this.soon((late) => late.openDropped(this, dropped));
   }
@@ -202,7 +202,7 @@ export class App {
     this.touch();
     this.soon(() => {
       const ear = this.parts?.ear;
-      if (ear?.state === 'asleep') return; // the press has resumed it
+      if (ear?.state === 'asleep') return; // the press has resumed the sound
       if (ear?.state === 'off') void ear.open();
       else ear?.close();
     });
@@ -281,7 +281,7 @@ export class App {
     const { lit = 1, of = 1 } = this.probe.burning ?? {};
     const candle = this.player.playing?.tab === 'candle';
     const out = lit === 0 && of > 0;
-    // The cake's plaque names the recipient.
+    // On a cake the plaque names the recipient.
     const plaque = this.settings.candles > 1 || this.settings.age > 0;
     const words = !candle ? '' : out && wish !== '' ? wish : [name && !plaque && `For ${name}`, from && `from ${from}`].filter(Boolean).join(', ');
     if (this.greeting.textContent !== words) this.greeting.textContent = words;
@@ -323,7 +323,7 @@ export class App {
     if (this.probe.firstPicture === 0 && (this.stage.shown || this.stage.frames > 60)) {
       this.probe.firstPicture = performance.now();
       this.bring();
-      // Ducks as if the visitor had breathed on entering.
+      // The flame bends once, as if the visitor had breathed on entering.
       if (!this.overlay && this.stage.pace === 1) this.duckFrom = -DUCKS.after;
     }
     if (this.duckFrom < DUCKS.lasts) this.duck(Math.min(seconds, DUCKS.frame));

@@ -10,7 +10,7 @@ const LONGEST = 480;
 const DITHER = [0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5];
 const DITHER_LEVELS = 10;
 
-/** Pictures of the canvas, each read in the frame that drew it, as it is cleared afterwards. */
+/** Returns pictures of the canvas, each read in the frame that drew it, as the canvas is cleared afterwards. */
 function pictures(canvas: HTMLCanvasElement, seconds: number): Promise<ImageData[]> {
   const scale = Math.min(1, LONGEST / Math.max(canvas.width, canvas.height));
   const small = new OffscreenCanvas(Math.max(1, Math.round(canvas.width * scale)), Math.max(1, Math.round(canvas.height * scale)));
@@ -22,7 +22,7 @@ function pictures(canvas: HTMLCanvasElement, seconds: number): Promise<ImageData
     let first: number | null = null;
     const take = (now: number): void => {
       first ??= now;
-      // A late frame is repeated for those it missed.
+      // A late frame is repeated for the frames missed before it.
       while (taken.length < wanted && taken.length * STEP_MS <= now - first) {
         context.drawImage(canvas, 0, 0, small.width, small.height);
         taken.push(context.getImageData(0, 0, small.width, small.height));

@@ -22,7 +22,7 @@ export function furnish(app: App) {
   const ear = new Ear(app);
   const tuning = new Tuning(ear, byId('tuning', HTMLElement), byId('blow', HTMLButtonElement));
   byId('tune', HTMLButtonElement).addEventListener('click', () => tuning.open());
-  // Disables blowing while the studio is filming.
+  // In the studio this key does nothing.
   app.keys.t = () => document.body.classList.contains('studying') || tuning.open();
   const { escape } = app.keys;
   app.keys.escape = () => (tuning.isOpen ? tuning.close() : escape?.());

@@ -13,7 +13,7 @@ export const DEFAULTS = {
   noise: 1,
   candles: 1,
   leaves: 400,
-  /** drawn pixels per screen pixel, up to 2; 0: as many as stay smooth */
+  /** drawn pixels per CSS pixel, up to 2; 0: as many as stay smooth */
   detail: 0,
   /** model in place of the shipped one: an address of this origin, or the packed model (model_link.ts); '': shipped */
   model: '',
@@ -43,7 +43,7 @@ const RANGES: Readonly<Record<Exclude<keyof Settings, 'scene' | 'model' | keyof 
   detail: [0, 2, false],
 };
 
-/** Text in one line, of at most `most` letters. */
+/** Returns a text in one line, cut to `most` letters. */
 export const shortened = (words: string, most: number): string => [...words.replace(/\s+/g, ' ').trim()].slice(0, most).join('');
 
 /** Reads settings from a link's hash. Missing, unknown or out-of-range values are those of `otherwise`. */
@@ -63,12 +63,12 @@ export function settingsFromLink(hash: string, otherwise: Readonly<Settings> = D
   return settings;
 }
 
-/** Whether a transparent overlay is requested, for films and other people's pictures. */
+/** Whether a transparent overlay is requested, to lie over a film or stream. */
 export const isOverlay = (hash: string): boolean => new URLSearchParams(hash.replace(/^#/, '')).has('overlay');
 
 /**
- * Shortest link from its # on with these settings. `own`: this visitor's initial settings, since personal preferences
- * are not sent.
+ * Returns the shortest link to these settings, from its # on. `own`: this visitor's initial settings, which are left
+ * out as personal preferences.
  */
 export function linkOf(settings: Readonly<Settings>, own: Readonly<Settings> = DEFAULTS): string {
   const given = new URLSearchParams();

@@ -10,7 +10,7 @@ const CALM = { noise: 0.3, leaves: 25 };
 /** Registers the service worker, so that the page opens without a network. */
 function keepForOffline(): void {
   if (!import.meta.env.PROD || !('serviceWorker' in navigator)) return;
-  // Refused where storage is disabled, as in private windows: the page then needs its network.
+  // Registration is refused where storage is disabled, as in private windows: the page then needs a network.
   navigator.serviceWorker.register('./sw.js').catch(() => undefined);
 }
 

@@ -14,7 +14,7 @@ export async function fetchPart<T>(bring: () => Promise<T>, [wait, ...later]: re
   }
 }
 
-/** Work that is done once, and again after a failure. */
+/** Returns a function that does the work at its first call, and again at a call after a failure. */
 export function once<T>(work: () => Promise<T>): () => Promise<T> {
   let coming: Promise<T> | null = null;
   return () =>

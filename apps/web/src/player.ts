@@ -15,7 +15,7 @@ export interface Playing {
   file: string;
   /** false: a dropped file, or the model of a link */
   shipped: boolean;
-  /** whether its wind response is borrowed from the shipped flame */
+  /** whether the wind response is borrowed from the shipped flame */
   borrows: boolean;
   scene: Scene;
   /** tab of the scene; null: none */
@@ -24,7 +24,7 @@ export interface Playing {
 
 export class Player {
   playing: Playing | null = null;
-  /** incremented by openings: outdated ones are abandoned */
+  /** number of the latest opening; earlier ones that still load are abandoned */
   private opening = 0;
 
   constructor(

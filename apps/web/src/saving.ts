@@ -13,7 +13,7 @@ const KINDS = ['video/mp4;codecs=avc1', 'video/webm;codecs=vp9', 'video/webm'];
 
 export const after = (seconds: number): Promise<unknown> => new Promise((resolve) => setTimeout(resolve, 1000 * seconds));
 
-/** Saves a file on the user's device. Says so. */
+/** Saves a file on the user's device. Returns the words that say so. */
 export function saveFile(blob: Blob, name: string): string {
   const address = URL.createObjectURL(blob);
   const link = document.createElement('a');
@@ -26,10 +26,10 @@ export function saveFile(blob: Blob, name: string): string {
 
 export const savePicture = async ({ stage }: App): Promise<string> => saveFile(await stage.snapshot(), 'wisp.png');
 
-/** Seconds of a film. */
+/** Duration of a film, seconds. */
 const lasts = ({ settings }: App): number => (settings.wish !== '' ? 9 : 6.5);
 
-/** What happens in a film: the flame burns, is blown out, smokes, and is lit again. */
+/** Plays the events of a film: the flame burns, is blown out, smokes, and is lit again. */
 async function happen(app: App): Promise<void> {
   const { held } = app.breath.keys;
   const scene = app.player.playing?.scene;
@@ -66,7 +66,7 @@ export async function saveLoop(app: App): Promise<string> {
   });
   const ended = new Promise((resolve) => recorder.addEventListener('stop', resolve, { once: true }));
   recorder.start(SLICE_MS);
-  // A busy machine takes time until it encodes anything.
+  // On a busy machine encoding starts late.
   await Promise.race([begun, after(PATIENCE)]);
   await happen(app);
   recorder.stop();

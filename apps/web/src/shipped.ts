@@ -3,7 +3,7 @@
 export const FLAME = 'flame.wisp';
 export const LEAF = 'leaf.wisp';
 
-/** Fetches a file's bytes. Throws an Error that says so where they are missing. */
+/** Fetches a file's bytes. Throws an Error with the HTTP status on failure. */
 export async function fetchBytes(url: string | URL, file: string): Promise<Uint8Array> {
   const answer = await fetch(url);
   if (!answer.ok) throw new Error(`${file} could not be fetched (${answer.status}).`);

@@ -92,7 +92,7 @@ describe('a candle that hears', { skip }, () => {
     const heard = await page.evaluate(() => window.wisp.sound.heard);
     await page.waitForTimeout(300);
     assert.equal(await page.evaluate(() => window.wisp.sound.heard), heard);
-    // The button is told with the next frame.
+    // The button changes with the next frame.
     await until(page, 'the button is up', () => document.getElementById('blow').getAttribute('aria-pressed') === 'false');
   });
 
@@ -104,7 +104,7 @@ describe('a candle that hears', { skip }, () => {
 
 describe('somebody who presses Blow and blows at once', { skip }, () => {
   it('puts the candle out with the blows that follow', async () => {
-    // A first puff that is too soft to do it, from when the microphone opens and on; hard blows follow.
+    // A first puff is too soft to extinguish the candle; hard blows follow.
     const blows = Array.from({ length: 12 }, () => [breath(1, 0.3), room(2)]).flat();
     const { opened, page } = await hearing(folder, [room(0.3), breath(2.7, 0.03), room(3), ...blows], { viewport });
     await page.click('#blow');

@@ -13,14 +13,14 @@ const dist = fileURLToPath(new URL('../dist/', import.meta.url));
 
 export { seen, skip };
 
-/** A folder for the files of a test, removed after it. */
+/** Creates a folder for the files of a test, removed after the test. */
 export function temporaryFolder() {
   const folder = mkdtempSync(join(tmpdir(), 'wisp-page-'));
   after(() => rmSync(folder, { recursive: true }));
   return folder;
 }
 
-/** A server, and a browser with pages of it. `close()` ends both. */
+/** Starts a server of the built page, and a browser. `close()` ends both. */
 export async function openBrowser(flags = []) {
   const server = await serve(dist, false);
   const address = `http://localhost:${server.address().port}/`;
@@ -28,7 +28,7 @@ export async function openBrowser(flags = []) {
   return {
     browser,
     address,
-    /** The page, once it plays; its errors are in `page.errors`, its requests to other hosts in `page.strangers`. */
+    /** Opens the page and waits until it plays. `page.errors`: errors; `page.strangers`: requests to other hosts. */
     async page(hash = '', options = {}) {
       const page = await watched(browser, address, { viewport: { width: 360, height: 360 }, serviceWorkers: 'block', ...options });
       if (options.before) await page.addInitScript(options.before);
@@ -45,7 +45,7 @@ export async function openBrowser(flags = []) {
 
 /**
  * Opens a page before the tests of a `describe` and passes it to `ready`. After them it asserts that the page had no
- * error and requested nothing from other hosts. `flags`: of the browser, made when it starts.
+ * error and requested nothing from other hosts. `flags`: returns the browser's flags when it starts.
  */
 export function onPage(hash, ready, { flags = () => [], ...options } = {}) {
   let opened, page;
@@ -62,14 +62,14 @@ export function onPage(hash, ready, { flags = () => [], ...options } = {}) {
 }
 
 const fakes = ['--use-fake-ui-for-media-stream', '--use-fake-device-for-media-stream'];
-/** A browser whose microphone is a sound file, played once. */
+/** Flags of a browser whose microphone is a sound file, played once. */
 export const hears = (file) => [...fakes, `--use-file-for-fake-audio-capture=${file}%noloop`];
-/** A browser whose camera and microphone are files, played again and again. */
+/** Flags of a browser whose camera and microphone are files, played again and again. */
 export const filmsWith = ({ picture, sound }) => [...fakes, `--use-file-for-fake-video-capture=${picture}`, `--use-file-for-fake-audio-capture=${sound}`, loud];
-/** Lets pages sound before somebody presses anything. */
+/** Flag that lets pages play sound before anything is pressed. */
 export const loud = '--autoplay-policy=no-user-gesture-required';
 
-/** Waits until something holds in the page. Polls from here, since the page's policy forbids Playwright's own wait. */
+/** Waits until something holds in the page. Polls, as the page's policy forbids Playwright's own wait. */
 export const until = (page, what, holds, argument = null) => seen(what, () => page.evaluate(holds, argument));
 
 export async function framesPass(page, many = 2) {
@@ -128,7 +128,7 @@ export async function enterStudio(page) {
 }
 export const chooses = (page) => until(page, 'what there is to choose', () => document.querySelector('[data-gather=camera]') !== null);
 export const toLearn = (page) => until(page, 'it can be learned', () => document.querySelector('[data-act=learn]') !== null);
-/** The download that begins when an element is pressed. */
+/** Presses an element and returns the download that begins. */
 export const saved = async (page, pressed) => (await Promise.all([page.waitForEvent('download'), page.click(pressed)]))[0];
 
 /** Number of bright, blue or orange pixels of each canvas, right of `left` and in the upper `share` of its height. */

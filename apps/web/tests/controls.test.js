@@ -54,7 +54,7 @@ describe('the candle', { skip }, () => {
 
   it('goes out in a quick stroke past it, and is lit by a tap', async () => {
     const { wick } = await page.evaluate(() => window.wisp.places());
-    // The hand that has just lit it shelters it for a moment: the first strokes may not reach it.
+    // A candle that was just lit is sheltered from strokes for 0.6 s: the first strokes may have no effect.
     for (let stroke = 0; stroke < 6 && (await page.evaluate(allLit)); ++stroke) {
       await goLeftOf(wick);
       await page.mouse.move(wick[0] + 120, wick[1] - 20);
@@ -68,7 +68,7 @@ describe('the candle', { skip }, () => {
   it('burns on while a pointer goes slowly past it', async () => {
     const { wick } = await page.evaluate(() => window.wisp.places());
     let strongest = 0;
-    // From where it lit the candle to the left and back past it: a jump to the left would be a stroke itself.
+    // The pointer goes left from the wick, which it tapped, and back past the wick: a jump would be a stroke.
     for (let step = -20; step <= 60; ++step) {
       await page.mouse.move(wick[0] + 3 * (Math.abs(step) - 20), wick[1] - 20);
       await pictures(1);
@@ -162,14 +162,14 @@ describe('the drawer', { skip }, () => {
   it('opens by its button and by I, closes by Escape, its cross and I', async () => {
     const hidden = () => page.evaluate(() => document.getElementById('drawer').hidden);
     await page.click('#open-drawer');
-    // It comes after the first flame.
+    // The drawer is loaded after the first flame.
     await until(page, 'the drawer is open', () => !document.getElementById('drawer').hidden);
     assert.equal(await page.getAttribute('#open-drawer', 'aria-expanded'), 'true');
     await page.keyboard.press('Escape');
     assert.equal(await hidden(), true);
     await page.keyboard.press('i');
     assert.equal(await hidden(), false);
-    // Also from beside it.
+    // Escape also closes it while the focus is outside.
     await page.focus('#stage');
     await page.keyboard.press('Escape');
     assert.equal(await hidden(), true);
@@ -214,7 +214,7 @@ describe('the drawer', { skip }, () => {
     await until(page, 'it says where the link is', () => /Copied|address/.test(document.querySelector('[data-file=send]').textContent));
     assert.ok(page.url().includes(`seed=${seed}`));
     await page.keyboard.press('Escape');
-    // The card took the drawer's place.
+    // The card has closed the drawer.
     await page.keyboard.press('i');
   });
 
@@ -401,7 +401,7 @@ describe('the page', { skip }, () => {
     await spoken.focus('#stage');
     for (const key of ['i', '2', '+', 'b']) await spoken.keyboard.press(key);
     assert.deepEqual(await spoken.evaluate(() => [document.getElementById('drawer').hidden, window.wisp.hearing, window.wisp.burning?.of]), [true, 'off', 1]);
-    // What is no single letter goes on: Space blows.
+    // Keys that are no single letter still act: Space blows.
     await blowOut(spoken);
     await spoken.close();
   });

@@ -23,28 +23,28 @@ export const noFilms = !existsSync(program) && 'build/release/bin/wisp is not bu
 export const noConverter = noFilms || (!runs('ffmpeg') && 'there is no ffmpeg here');
 
 const convert = (...values) => execFileSync('ffmpeg', ['-v', 'error', '-y', ...values]);
-/** Returns a function that converts a film to a file of that name in a folder. */
+/** Returns a function that converts a film to a file `name` in a folder. */
 const another = (name, ...values) => (film, folder) => {
   const made = join(folder, name);
   convert('-i', film, ...values, made);
   return made;
 };
 
-/** Ten seconds of a candle in gusts, blown out near the end, with the sound of the wind: made once for every program. */
+/** Ten seconds of a candle in gusts, blown out near the end, with sound: made once per build of the program. */
 export function candleFilm(folder) {
   const film = join(folder, 'candle.mp4');
   const kept = fileURLToPath(new URL('../../../node_modules/.cache/wisp/candle.mp4', import.meta.url));
   if (!existsSync(kept) || statSync(kept).mtimeMs < statSync(program).mtimeMs) {
     execFileSync(program, ['simulate', 'candle', '-o', film, '--seconds', '10', '--rate', '30', '--wind', 'gusts', '--blow-out', '8', '--seed', '5', '--quiet']);
     mkdirSync(dirname(kept), { recursive: true });
-    // Whole or not at all: another test may look for it at the same time.
+    // Renamed when complete, as another test may look for the film at the same time.
     copyFileSync(film, `${kept}.${process.pid}`);
     renameSync(`${kept}.${process.pid}`, kept);
   } else copyFileSync(kept, film);
   return film;
 }
 
-/** Some falls of a leaf. */
+/** Writes a recording of twelve simulated falls of a leaf. */
 export function recordedFalls(folder) {
   const falls = join(folder, 'falls.csv');
   execFileSync(program, ['simulate', 'leaf', '-o', falls, '--drops', '12', '--seconds', '8', '--seed', '7', '--quiet']);
@@ -64,7 +64,7 @@ const byProgram = (recording, ...what) => {
 export const capturedByProgram = (film, folder) => byProgram(join(folder, 'recording.csv'), 'flame', film);
 export const fallsByProgram = (film, metres, folder) => byProgram(join(folder, 'program_falls.csv'), 'fall', film, '--height', String(metres));
 
-/** A film as files for Chromium's fake camera and microphone. */
+/** Converts a film to files for Chromium's fake camera and microphone. */
 export function asDevices(film, folder, { silent = false, seconds = 8 } = {}) {
   const [picture, sound] = [join(folder, 'camera.mjpeg'), join(folder, 'microphone.wav')];
   convert('-i', film, '-an', '-t', String(seconds), '-c:v', 'mjpeg', '-q:v', '3', picture);
@@ -85,7 +85,7 @@ export const webFilm = another('web.webm', '-t', '2', '-c:v', 'libvpx-vp9', '-de
 /** A film's file with its sound alone. */
 export const soundAlone = another('sound.mp4', '-t', '1', '-vn', '-c:a', 'copy');
 
-/** A truncated copy: the index at the end of the MP4 is missing. */
+/** Truncates a copy of a film's first second: the index at the end of the MP4 is missing. */
 export function brokenOff(film, folder) {
   const whole = join(folder, 'broken_off.mp4');
   convert('-i', film, '-t', '1', '-c', 'copy', whole);
@@ -117,7 +117,7 @@ export function hugeFile(film, folder) {
   return huge;
 }
 
-/** Asserts that two recordings with a channel agree: to `most` pixels, by which decoders differ, and to a thousandth of wind. */
+/** Asserts that two recordings with a channel agree: to `most` pixels (decoders differ), and 0.001 of wind. */
 export function assertSame(ours, theirs, most = 0.01, channel = 'u:wind') {
   const rows = (text) => text.trim().split('\n').filter((line) => !line.startsWith('#')).map((line) => line.split(','));
   const [[head, ...found], [names, ...wanted]] = [rows(ours), rows(theirs)];

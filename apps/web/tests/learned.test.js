@@ -1,5 +1,5 @@
 // What the page says about models, and how it plays one that was learned without wind.
-// tests/models/calm.wisp: 15 s of the simulated candle without any wind (WindKind::kCalm, seed 2), without its sound, through `wisp learn flame`.
+// models/calm.wisp: by `wisp learn flame` from 15 s of the simulated candle without wind (kCalm, seed 2) or sound.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';

@@ -40,7 +40,7 @@ describe('the start', { skip }, () => {
     await page.waitForTimeout(1000);
     const events = JSON.parse((await opened.browser.stopTracing()).toString()).traceEvents;
     await opened.close();
-    // Threads that run the page's scripts. Time of the processor, so that what else runs on the machine does not count.
+    // Tasks of threads that run the page's scripts, in processor time, so that other programs do not count.
     const own = new Set(events.filter(({ name, args }) => name === 'FunctionCall' && args.data?.url?.startsWith(opened.address)).map(({ pid, tid }) => `${pid} ${tid}`));
     const tasks = events.filter(({ name, pid, tid, tdur }) => tdur > 0 && /RunTask$/.test(name) && own.has(`${pid} ${tid}`)).map(({ tdur }) => tdur / 1000);
     assert.ok(tasks.length > 50 && Math.max(...tasks) <= 50, `${tasks.length} tasks, up to ${Math.max(...tasks)} ms`);

@@ -40,13 +40,13 @@ describe('on a phone', { skip }, () => {
     await held(10, 88, 0);
     await page.keyboard.press('a');
     await sees('it has asked, in a press', () => window.asked === true && document.querySelector('[data-knob=senses]').ariaPressed === 'true');
-    // The rest position is that of the first event, which a busy machine delivers late. The browser reports changes only.
+    // The first event, which a busy machine delivers late, sets the rest position. Browsers report changes only.
     await page.evaluate(() => addEventListener('deviceorientation', () => (window.turned = true)));
     await held(10, 88.1, 0);
     await sees('nothing blows', () => window.turned && Math.abs(window.wisp.wind) < 0.02);
     await page.evaluate(() => setInterval(() => (window.far = [Math.min(window.far?.[0] ?? 0, window.wisp.answer), Math.max(window.far?.[1] ?? 0, window.wisp.answer)]), 20));
     await held(100, 60, -89.9);  // upright and rolled: 30 degrees down on the left
-    await sees('it leans to the left', () => window.far?.[0] < -0.1);  // also where a busy machine looks late
+    await sees('it leans to the left', () => window.far?.[0] < -0.1);  // the extremes are kept, as a busy machine may look late
     await held(10, 88, 0);
     await sees('it is still', () => Math.abs(window.wisp.wind) < 0.1 && (window.far = [0, 0]));
     await held(10, 60, 0);

@@ -78,7 +78,7 @@ function samplesOf(path) {
   return Float32Array.from({ length: count }, (_, k) => bytes.readInt16LE(from + 2 * k) / 32768);
 }
 
-/** The loudest part of that length. */
+/** Returns the loudest part of the samples that lasts `seconds`. */
 function loudest(samples, seconds) {
   const length = Math.round(seconds * rate);
   let best = 0;
@@ -108,7 +108,7 @@ export function speech(seconds, level) {
   }
   const slow = samplesOf(path);
   rmSync(folder, { recursive: true });
-  // espeak-ng speaks at 22.05 kHz: twice as many samples, each half way between.
+  // espeak-ng speaks at 22.05 kHz: a sample half way between each two doubles the rate.
   const spoken = Float32Array.from({ length: Math.min(2 * slow.length, seconds * rate) }, (_, k) =>
     k % 2 === 0 ? slow[k >> 1] : 0.5 * (slow[k >> 1] + (slow[(k >> 1) + 1] ?? 0)),
   );
@@ -129,8 +129,8 @@ export function writeSound(path, pieces) {
 }
 
 /**
- * A page that hears these pieces of sound, one after another, from the moment in which its microphone opens. What it
- * shows is kept thirty times a second, timed by the sound.
+ * Opens a page whose microphone plays these pieces of sound, one after another, once it is opened. Keeps the page's
+ * figures every 33 ms, with the seconds since the sound began.
  */
 export async function hearing(folder, pieces, { detail = 0.2, ...options } = {}) {
   const file = join(folder, `${Math.random()}.wav`);

@@ -25,10 +25,10 @@ function table() {
   return Buffer.from(`${rows.join('\n')}\n`);
 }
 
-/** That table with −999 in place of some samples. */
+/** The table of table(), with −999 in place of some samples. */
 const tableWithSentinel = () => Buffer.from(table().toString().split('\n').map((row, k) => (k % 97 === 50 ? row.replace(/[^,]*$/, '-999') : row)).join('\n'));
 
-/** That table, with outputs unrelated to the inputs in its last quarter. */
+/** The table of table(), with outputs unrelated to the inputs in its last quarter. */
 function tableThatBreaks() {
   const rows = table().toString().trim().split('\n');
   return Buffer.from(rows.map((row, k) => (k < 460 ? row : row.replace(/[^,]*$/, String(Math.sin(k * k))))).join('\n'));
@@ -235,7 +235,7 @@ describe('a film of something that falls', { skip: skip || noConverter }, () => 
   });
 
   it('shows the ways that they took', async () => {
-    // The film is grey: what is blue on it is drawn.
+    // The film is grey, so its blue pixels are drawn lines.
     const [drawn] = await painted(page, '.viewer .over', 'blue');
     assert.ok(drawn > 500, `${drawn} pixels`);
   });
@@ -260,7 +260,7 @@ describe('a film of something that falls', { skip: skip || noConverter }, () => 
 
 describe('a bad day in the studio', { skip }, () => {
   let page;
-  // In the page: a camera that is missing, refused, or taken away while it films.
+  // Runs in the page: a camera that is missing, refused, or taken away while it films.
   function stubCamera() {
     window.camera = 'NotFoundError';
     window.wanted = [];

@@ -1,5 +1,5 @@
-// The studio under difficulties: unusual films, devices that disappear, a worker that stops. Each ends in a model or in a
-// sentence, and what was gathered before is kept.
+// The studio under difficulties: unusual films, devices that disappear, a worker that stops. Each ends in a model or
+// in a sentence, and what was gathered before is kept.
 
 import assert from 'node:assert/strict';
 import { readFileSync, truncateSync, writeFileSync } from 'node:fs';

@@ -1,4 +1,4 @@
-// What goes wrong outside: each gets a sentence that helps, and the scene goes on.
+// Failures outside the page: each is reported by a helpful sentence, and the scene continues.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
@@ -107,7 +107,7 @@ describe('trouble', { skip }, () => {
         await new Promise((resolve) => registration.active.addEventListener('statechange', resolve, { once: true }));
       }
     });
-    // One module of the two, and no leaf before Leaves is opened.
+    // Cached: one of the two modules, and the leaf's model only once Leaves is opened.
     const names = () =>
       kept.evaluate(async () => {
         const all = await Promise.all((await caches.keys()).map(async (name) => (await caches.open(name)).keys()));

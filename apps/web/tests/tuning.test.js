@@ -8,7 +8,7 @@ import { breath, hearing, hiss, room } from './sound.js';
 const folder = temporaryFolder();
 const phone = { viewport: { width: 390, height: 844 } };
 
-/** Loudness of somebody's breath at that microphone. */
+/** RMS of a soft and a hard breath at a microphone that is too sensitive. */
 const SOFT = 0.15;
 const HARD = 0.6;
 
@@ -18,8 +18,8 @@ describe('a microphone that is too sensitive', { skip }, () => {
   let heard;
 
   before(async () => {
-    // Soft and hard at the times of the two steps, with half a second to spare; the hard one is over before its step
-    // is, or the candle that is tuned by then goes out by the rest. Then soft, then hard.
+    // Soft and hard breath at the times of the two steps, with half a second to spare. The hard breath ends before its
+    // step, as its rest would extinguish the candle once tuned. Then soft, then hard.
     const pieces = [room(8.8), breath(4.8, SOFT), room(0.3), breath(2, HARD), room(4.6), breath(3, SOFT), room(2.5), breath(2, HARD), room(10)];
     heard = await hearing(folder, pieces, phone);
   });
@@ -164,7 +164,7 @@ describe('a microphone that takes the rumble of breath away', { skip }, () => {
   });
 
   it('and hisses like a tap is tuned by who blows at it, and a blow puts the candle out from then on', async () => {
-    // Soft and hard at the times of the two steps; then quiet, then hard blows.
+    // Soft and hard blowing at the times of the two steps; then quiet, then hard blows.
     const tap = (seconds, level) => hiss(seconds, level, [20, 20_000]);
     const pieces = [room(7), tap(6, 0.03), room(0.3), tap(2.2, 0.2), room(4), ...Array.from({ length: 6 }, () => [tap(1, 0.2), room(2)]).flat(), room(5)];
     const { opened, page, at, between } = await hearing(folder, pieces, phone);

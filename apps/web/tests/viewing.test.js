@@ -1,4 +1,4 @@
-// The viewing test, in Chromium: twenty pairs, who is right how often, and the file to take away.
+// The viewing test, in Chromium: twenty pairs, the share of right answers, and the saved file.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
@@ -16,7 +16,7 @@ describe('which one was filmed', { skip }, () => {
 
   it('shows two flames that both move, in the same drawing', async () => {
     const pictures = () => page.$$eval('.viewing canvas', (all) => all.map((canvas) => canvas.toDataURL()));
-    // Both are there: neither is the picture of nothing.
+    // Both canvases show a flame.
     await seen('both burn', async () => (await painted(page, '.viewing canvas', 'bright')).every((bright) => bright > 150));
     const before = await pictures();
     await page.waitForTimeout(400);
@@ -37,7 +37,7 @@ describe('which one was filmed', { skip }, () => {
     assert.equal(file.answers.length, 20);
     assert.equal(new Set(file.answers.map(({ pair }) => pair)).size, 20, 'no pair twice');
     assert.equal(file.right, file.answers.filter(({ filmed }) => filmed === 'left').length);
-    // Wilson's interval, worked out another way: its ends solve (p - share)^2 = z^2 p (1 - p) / n.
+    // Wilson's interval, checked by its equation: its ends solve (p - share)^2 = z^2 p (1 - p) / n.
     for (const p of file.interval_95) assert.ok(Math.abs((p - file.share) ** 2 - (1.96 ** 2 * p * (1 - p)) / 20) < 1e-9, JSON.stringify(file.interval_95));
     const words = await page.textContent('.viewing p');
     const sees = file.interval_95[0] > 0.5 || file.interval_95[1] < 0.5;

@@ -1,4 +1,4 @@
-// What the first scene weighs on its way, and what the page may ask for.
+// The built page: download sizes of its parts, its policy, its cached files, and the number of source lines.
 
 import assert from 'node:assert/strict';
 import { readdirSync, readFileSync } from 'node:fs';

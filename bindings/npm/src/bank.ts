@@ -21,7 +21,7 @@ export const noInstance: Instance = 0n;
 
 /** State of a flame. Times are nanoseconds of shown time; Infinity for events that never happened. */
 export interface FlameState extends Omit<at.Values<typeof at.flameState.fields>, 'events'> {
-  /** In the last call of `step()` or `advance()`, or by a call since. */
+  /** Whether the flame went out in the last `step()` or `advance()` or by a call since; `relit`: was lit. */
   wentOut: boolean;
   relit: boolean;
 }
@@ -29,7 +29,7 @@ export interface FlameState extends Omit<at.Values<typeof at.flameState.fields>,
 /** Position of an instance in its chain. */
 export type ChainPlace = at.Values<typeof at.chainPlace.fields>;
 
-/** Settings of a chain; null: initial value. */
+/** Settings of a chain. `ground`: height of level ground; null: none. */
 export interface ChainSettings {
   ground: number | null;
 }
@@ -75,13 +75,13 @@ class Room {
 
 /**
  * Made by `Model.bank()`. Bulk arrays have one row per slot; rows of empty slots are ignored on input and zero on
- * output. Views returned by `…View()` are the module's own memory, valid until the next call.
+ * output. Views are the module's own memory, valid until the next call.
  */
 export class Bank {
   readonly capacity: number;
   readonly inputs: number;
   readonly outputs: number;
-  /** 0 for outputs other than an outline. */
+  /** Points of an outline's polyline; 0 for a model whose outputs are no outline. */
   readonly polylinePoints: number;
   private pointer: number;
   private readonly scratch: number;
@@ -202,25 +202,25 @@ export class Bank {
     return this.take('wisp_bank_polylines', this.rooms.polylines, this.slots * this.polylinePoints * 2);
   }
 
-  /** Outline of one instance: points × 2. A view, as above. */
+  /** Outline of one instance: points × 2. A view, valid until the next call. */
   polyline(instance: Instance): Float32Array<ArrayBuffer> {
     return this.take('wisp_bank_polyline', this.rooms.polylines, this.polylinePoints * 2, instance);
   }
 
-  /** In the round: sets the level camera of outputs and outlines by its right direction, the unit vector (x, z). */
+  /** Body of revolution: sets the level camera of outputs and outlines by its right direction, the unit (x, z). */
   look(rightX: number, rightZ: number): void {
     this.call('wisp_bank_look', rightX, rightZ);
   }
 
   /**
-   * In the round: rings of one instance from the base to the tip, half as many as points. Six numbers each: x, y, z of
-   * the centre, the radius, and the rise of the rim towards +x and +z. A view, as above.
+   * Body of revolution: rings of one instance from the base to the tip, half as many as points. Six numbers each: x, y,
+   * z of the centre, the radius, and the rise of the rim towards +x and +z. A view.
    */
   rings(instance: Instance): Float32Array<ArrayBuffer> {
     return this.take('wisp_bank_rings', this.rooms.rings, 6 * this.ringCount, instance);
   }
 
-  /** In the round: surface of one instance, rings × segments vertices with position and normal, as a copy. */
+  /** Body of revolution: surface of one instance, rings × segments vertices with position and normal, as a copy. */
   mesh(instance: Instance, segments: number): Float32Array<ArrayBuffer> {
     const { native, ringCount } = this;
     this.rings(instance);
@@ -247,7 +247,7 @@ export class Bank {
     return { ...state, wentOut: (events & 1) !== 0, relit: (events & 2) !== 0 };
   }
 
-  /** Flame sizes of all instances: slots. A view, as above. */
+  /** Flame sizes of all instances: slots. A view, valid until the next call. */
   flameSizes(): Float32Array<ArrayBuffer> {
     return this.take('wisp_bank_flame_sizes', this.rooms.sizes, this.slots);
   }
@@ -335,7 +335,7 @@ export class Bank {
     this.native.check(this.native.functions[name]!(this.pointer, ...values));
   }
 
-  // A freed bank has no scratch memory either.
+  // Throws the library's error if the bank is freed, before its freed scratch memory is used.
   private living(): void {
     if (this.pointer === 0) this.native.check(this.native.functions.wisp_bank_step!(0));
   }
@@ -352,7 +352,7 @@ export class Bank {
     this.living();
     const room = this.rooms.inputs;
     const most = this.capacity * this.inputs;
-    // The count is passed unchanged, so that the ABI reports a wrong one.
+    // The count is passed unchanged, so that the ABI reports a wrong count.
     const target = room.first(most);
     if (!(values instanceof Float32Array && values.byteOffset === target.byteOffset && values.buffer === target.buffer)) {
       for (let k = 0; k < Math.min(values.length, most); ++k) target[k] = values[k]!;

@@ -5,7 +5,7 @@ import type { Native } from './native.js';
 
 const never = 0x7fffffffffffffffn;
 
-/** How a field of each kind is read. */
+/** Reads a field of each kind at address p. */
 const readers = {
   count: ({ data }: Native, p: number) => data.getUint32(p, true),
   flag: ({ data }: Native, p: number) => data.getUint32(p, true) === 1,
@@ -57,12 +57,12 @@ export const modelFacts = struct(128, {
   outputs: [8, 'count'],
   /** Number of control points of an outline; otherwise 0. */
   controlPoints: [12, 'count'],
-  /** Steps per second; `stepNanoseconds`: duration of one. */
+  /** Steps per second; `stepNanoseconds`: duration of a step. */
   rateHz: [24, 'double'],
   /** Metres per unit of an outline; 0 if unknown. */
   metresPerUnit: [32, 'double'],
   stepNanoseconds: [40, 'long'],
-  /** Non-zero coefficients (the paper's count of cost), as stored in the file; 0 if missing. */
+  /** Multiplications per frame, counted as non-zero coefficients; as stored in the file; 0 if missing. */
   multiplyAddsPerFrame: [48, 'long'],
   /** All arithmetic operations of a frame, as stored; 0 if missing. */
   operationsPerFrame: [56, 'long'],
@@ -73,14 +73,14 @@ export const modelFacts = struct(128, {
   halfLength: [96, 'double'],
 });
 
-/** The fields `blow_out_…` of the same struct. */
+/** The model facts' fields `blow_out_…`, for flames that wind extinguishes. */
 export const blowOut = struct(modelFacts.size, {
   /** Index of the wind input. */
   input: [120, 'count'],
   /** Minimum wind that extinguishes when it lasts `seconds`, in the input's unit. */
   level: [64, 'double'],
   seconds: [72, 'double'],
-  /** At twice the level it takes seconds / (1 + haste). */
+  /** Wind of twice the level extinguishes in seconds / (1 + haste). */
   haste: [104, 'double'],
   /** Seconds below the level until full recovery. */
   recoverySeconds: [112, 'double'],
@@ -90,7 +90,7 @@ export const channel = struct(40, {
   name: [8, 'text'],
   /** Unit of the values; '' if none. */
   unit: [12, 'text'],
-  /** Trained or observed range; the bank clamps values to it extended by half its width at each end. */
+  /** Trained or observed range. The bank clamps values to this range extended by half its width at each end. */
   lowest: [16, 'double'],
   highest: [24, 'double'],
   /** For inputs: whether the dynamics have separate coefficients for positive and negative values. */
@@ -140,7 +140,7 @@ export const chainPlace = struct(48, {
   /** Over the last step: metres and radians a second, z up. */
   velocity: [16, 'vector'],
   spin: [28, 'vector'],
-  /** Whether it rests on the ground; whether it touched it in the last `step()` or `advance()`. */
+  /** Whether the instance rests on the ground; `landed`: touched it in the last `step()` or `advance()`. */
   lies: [40, 'flag'],
   landed: [44, 'flag'],
 });
@@ -162,7 +162,7 @@ export const windOptions = struct(56, {
   smoothingSeconds: [32, 'double'],
   /** Maximum rise of the background, dB a second, 0 to 60; default 1. */
   floorRiseDbPerSecond: [40, 'double'],
-  /** Initial RMS of wind 1, full scale 1; default 0.04. */
+  /** RMS of the wind's band that initially gives wind 1, full scale 1; default 0.04. */
   firstGustRms: [48, 'double'],
 });
 
@@ -173,7 +173,7 @@ export const windFrame = struct(40, {
   level: [16, 'float'],
   /** Proportional to wind speed; 1 lies between soft breath and hard blowing. */
   speed: [20, 'float'],
-  /** Input for a model: speed where it sounds like blowing, 0 in silence. */
+  /** Input for a model: `speed` while the sound resembles blowing, otherwise less; 0 in silence. */
   wind: [24, 'float'],
   /** Confidence from 0 to 1 that the sound is blowing, not talking. */
   confidence: [28, 'float'],

@@ -14,7 +14,7 @@ export class Library {
     this.version = [Math.floor(version / 1e6), Math.floor(version / 1e3) % 1000, version % 1000].join('.');
   }
 
-  /** Whether it computes with SIMD; results are the same bits either way. */
+  /** Whether the library computes with SIMD; results are the same bits either way. */
   get simd(): boolean {
     return this.native.simd;
   }
@@ -24,7 +24,7 @@ export class Library {
     return this.native.module;
   }
 
-  /** Current size of its memory in bytes; it grows and never shrinks. */
+  /** Current size of the library's memory in bytes; it grows and never shrinks. */
   get memoryBytes(): number {
     return this.native.bytes.length;
   }
@@ -35,7 +35,7 @@ export class Library {
   }
 }
 
-/** Fetches, compiles and starts it. */
+/** Fetches, compiles and starts the library. */
 export async function loadLibrary(options: LoadOptions = {}): Promise<Library> {
   return new Library(await Native.load(options));
 }

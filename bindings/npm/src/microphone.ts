@@ -32,11 +32,11 @@ export interface MicrophoneOptions {
   frameRate?: number;
   /** Called with each frame. */
   onWind?: (wind: Wind) => void;
-  /** Called once when the microphone disappears or the estimator fails; it is then closed. */
+  /** Called once when the microphone disappears or the estimator fails; the microphone is then closed. */
   onLost?: (error: MicrophoneError) => void;
   /**
    * Called when sound stops although the microphone is open (a telephone call, a locked screen, a muted track), and
-   * when it returns. It recovers by itself at the next click or key, or when the page becomes visible.
+   * when it returns. Sound resumes at the next click or key, or when the page becomes visible.
    */
   onAsleep?: (asleep: boolean) => void;
   /** Called at the end of a calibration; `heard`: whether the requested sound was heard. */
@@ -51,7 +51,7 @@ export interface MicrophoneOptions {
   workletUrl?: URL | string;
 }
 
-/** Requested settings as applied by the browser; null where it does not say. */
+/** Requested settings as applied by the browser; null where the browser does not report one. */
 export interface MicrophoneSettings {
   echoCancellation: boolean | null;
   noiseSuppression: boolean | null;
@@ -77,7 +77,7 @@ function refusal(error: unknown): MicrophoneError {
   return new MicrophoneError(trouble, message, { cause: error });
 }
 
-/** All three enhance speech and suppress noise, and wind is noise. */
+/** Turns off the browser's speech processing, which would suppress wind as noise. */
 const RAW = { echoCancellation: false, noiseSuppression: false, autoGainControl: false };
 
 async function askForSound(deviceId: string | undefined): Promise<MediaStream> {
@@ -104,7 +104,7 @@ function settingsOf(track: MediaStreamTrack, context: AudioContext): MicrophoneS
   };
 }
 
-/** Milliseconds between checks for sound; silent checks until it counts as asleep; silent checks until it is reopened. */
+/** Milliseconds between checks for sound; silent checks above which the microphone is asleep, and is reopened. */
 const LOOK_EVERY = 500;
 const ASLEEP = 2;
 const STUCK = 4;
@@ -116,7 +116,7 @@ export type Microphone = Readonly<Pick<OpenMicrophone, 'settings' | 'raw' | 'asl
 
 class OpenMicrophone {
   settings!: MicrophoneSettings;
-  /** Whether it is open but gives no sound. */
+  /** Whether the microphone is open but gives no sound. */
   asleep = false;
   /** The latest frame; null before the first. */
   latest: Wind | null = null;
@@ -212,8 +212,8 @@ class OpenMicrophone {
   }
 
   /**
-   * Listens for 0.5 to 30 s for the requested sound; `onCalibrated` tells whether it was heard. Ask for gentle breath
-   * and hard blowing in turn where soft breath at a sensitive microphone must stay soft.
+   * Listens for 0.5 to 30 s for the requested sound; `onCalibrated` reports whether it was heard. Calibrate
+   * with both sounds in turn if a sensitive microphone turns soft breath into strong wind.
    */
   calibrate(ask: WindAsk, seconds = 3): void {
     this.tell({ type: 'calibrate', seconds, ask: windAsks.indexOf(ask) });
@@ -231,7 +231,7 @@ class OpenMicrophone {
     this.tell({ type: 'reset' });
   }
 
-  /** Switches it off; the browser's indicator goes out. May be called twice. */
+  /** Closes the microphone; the browser's indicator goes out. May be called twice. */
   stop(): void {
     if (!this.open) return;
     this.open = false;
@@ -277,7 +277,7 @@ class OpenMicrophone {
 
 /**
  * Requests a microphone and starts the wind estimator. Call it in a click or key handler, where browsers let sound
- * start. Throws a MicrophoneError with the reason where there is none.
+ * start. Throws a MicrophoneError with the reason if none can be opened.
  */
 export async function openMicrophone(wisp: Library, options: MicrophoneOptions = {}): Promise<Microphone> {
   const { stream, context } = await openSound(options);
@@ -289,7 +289,7 @@ async function openSound(options: MicrophoneOptions): Promise<{ stream: MediaStr
   const context = options.context ?? new AudioContext({ latencyHint: 'interactive' });
   try {
     await context.audioWorklet.addModule(options.workletUrl ?? new URL('./worklet.js', import.meta.url));
-    // Not awaited: without a click or key some browsers keep it pending and start the sound at the next one.
+    // Not awaited, as some browsers keep the promise pending until the next click or key.
     context.resume().catch(() => {});
     return { stream, context };
   } catch (error) {

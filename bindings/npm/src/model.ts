@@ -7,7 +7,7 @@ import { Native } from './native.js';
 /** An input or an output. */
 export type Channel = at.Values<typeof at.channel.fields>;
 
-/** 'arx': autoregression with exogenous inputs. 'chain': recorded segments, joined at random. 'switched': ARX modes in turn. */
+/** 'arx': autoregression with exogenous inputs. 'chain': recorded segments. 'switched': ARX modes in turn. */
 export type Dynamics = 'arx' | 'chain' | 'switched';
 
 /** Meaning of the outputs. 'outline': control points x, y. 'pose': position and quaternion w, x, y, z. */
@@ -17,7 +17,7 @@ export type View = 'plain' | 'outline' | 'pose' | 'position';
 export type BlowOut = at.Values<typeof at.blowOut.fields>;
 
 export interface ModelFacts extends Omit<at.Values<typeof at.modelFacts.fields>, 'inputs' | 'outputs' | 'dynamics' | 'view'> {
-  /** null: wind does not extinguish it. */
+  /** null: wind does not extinguish the model. */
   blowOut: BlowOut | null;
 }
 
@@ -41,7 +41,7 @@ export interface ArxFacts {
 export interface ChainFacts {
   modes: number;
   segments: { mode: number; steps: number }[];
-  /** Number of modes that the next one depends on, 1 or 2. */
+  /** Number of previous modes on which the next mode depends, 1 or 2. */
   history: number;
   /** Order of the response to wind; 0: no response. */
   gustOrder: number;
@@ -122,7 +122,7 @@ export class Model {
     };
   }
 
-  /** Orders and noise; null for a chain. */
+  /** Orders and noise; null for other dynamics than 'arx'. */
   get arx(): ArxFacts | null {
     if (this.kind !== 'arx') return null;
     const facts = this.read(at.arxFacts, 'wisp_model_get_arx');
@@ -156,7 +156,7 @@ export class Model {
   }
 
   private static read(native: Native, bytes: Uint8Array): number {
-    // Bytes without a model's signature are not copied, as a dropped film of many megabytes would stay in memory.
+    // Of a file without a model's signature only 64 bytes are copied, as memory that grew for a film never shrinks.
     const promising = bytes.length >= 32 && magic.every((byte, k) => bytes[k] === byte);
     const given = promising ? bytes : bytes.subarray(0, 64);
     return native.withRoom(given.length, (copied) => {
@@ -165,7 +165,7 @@ export class Model {
     });
   }
 
-  // Values of a struct that an ABI call fills.
+  // Returns the values of a struct that an ABI call fills.
   private read<F extends at.Fields>(struct: at.Struct<F>, name: string, ...index: number[]): at.Values<F> {
     const { native } = this;
     return native.withRoom(struct.size, (p) => {
@@ -175,7 +175,7 @@ export class Model {
     });
   }
 
-  // Numbers that an ABI call puts into an array.
+  // Returns the numbers that an ABI call writes into an array.
   private numbers(name: string, count: number, Kind: typeof Int32Array | typeof Float64Array): number[] {
     const { native } = this;
     return native.withRoom(count * Kind.BYTES_PER_ELEMENT, (p) => {

@@ -36,7 +36,7 @@ export interface LoadOptions {
   wasm?: URL | string | Response | BufferSource | WebAssembly.Module;
 }
 
-// A module with one function that returns a lane of i8x16.splat.
+// A module whose only function returns i8x16.popcnt of i8x16.splat(0).
 const simdProbe = new Uint8Array([
   0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11,
 ]);
@@ -101,7 +101,7 @@ export class Native {
     return new Native(module, simd, await WebAssembly.instantiate(module, Native.imports()));
   }
 
-  /** Imports of the module: almost none. */
+  /** Imports of the module: a notice of memory growth, which is ignored, and its exit, which throws. */
   static imports(): WebAssembly.Imports {
     return {
       env: { emscripten_notify_memory_growth: () => {} },
@@ -153,7 +153,7 @@ export class Native {
     }
   }
 
-  /** Pointer that a call stores in the memory it is given. */
+  /** Returns the pointer that a call stores in the four bytes passed to it. */
   made(call: (room: number) => number): number {
     return this.withRoom(4, (room) => {
       this.check(call(room));
@@ -167,12 +167,12 @@ export class Native {
     return this.decoder.decode(bytes.subarray(pointer, bytes.indexOf(0, pointer)));
   }
 
-  /** Throws the error of a C ABI function's status. */
+  /** Throws the library's last error, unless a C ABI function's status is ok. */
   check(status: number): void {
     if (status !== Status.ok) throw new WispError(status, this.text(this.functions.wisp_last_error!()));
   }
 
-  /** Runs work that may allocate; after an out-of-memory error the module is unusable. */
+  /** Runs work that may allocate. Throws noMemory if the module trapped; the module is then unusable. */
   allocating<T>(work: () => T): T {
     try {
       return work();

@@ -8,7 +8,7 @@ export type WindOptions = { sampleRate: number } & Partial<at.Values<typeof at.w
 /** The wind during one frame. Amplitudes are root mean squares with full scale 1. */
 export type WindFrame = at.Values<typeof at.windFrame.fields>;
 
-/** Calibration of a microphone in a room; stored, it saves the next start from estimating it. `gustRms` 0: unknown. */
+/** Calibration of a microphone in a room. Set at a later start, it replaces the initial guess. `gustRms` 0: unknown. */
 export type WindCalibration = at.Values<typeof at.windCalibration.fields>;
 
 /** Requests of a guided calibration to the user, in the order of WISP_WIND_*. */
@@ -51,7 +51,7 @@ export class WindLevel {
   feed(samples: Float32Array | Int16Array): WindFrame[] {
     this.living();
     const frames: WindFrame[] = [];
-    // 840 is a multiple of 1 to 8: whole rows of channels, unless the caller's own count is not.
+    // 840 is a multiple of every number of channels, 1 to 8, so whole rows stay together.
     const most = Math.floor(samplesAtOnce / 840) * 840;
     for (let from = 0; from < samples.length; from += most) this.feedPiece(samples.subarray(from, from + most), frames);
     return frames;
@@ -81,7 +81,7 @@ export class WindLevel {
     return at.valuesAt(this.native, this.frames, at.windFrame);
   }
 
-  /** Uses the coming seconds of sound, 0.5 to 30, as the requested sound. A number as `ask`, for the room, does nothing. */
+  /** Uses the coming seconds of sound, 0.5 to 30, as the requested sound. A number as `ask` does nothing. */
   calibrate(ask: WindAsk | number, seconds = 3): void {
     if (typeof ask === 'string') this.native.check(this.native.functions.wisp_wind_calibrate!(this.pointer, windAsks.indexOf(ask), seconds));
   }
@@ -119,7 +119,7 @@ export class WindLevel {
     native.check(native.functions.wisp_wind_set_calibration!(this.pointer, p));
   }
 
-  /** Seconds from wind to its frame, beyond the frame itself. */
+  /** Seconds by which a frame comes after the wind that it measures, beyond the frame's own duration. */
   get latencySeconds(): number {
     return this.native.functions.wisp_wind_latency!(this.pointer);
   }
@@ -129,7 +129,7 @@ export class WindLevel {
     this.native.check(this.native.functions.wisp_wind_reset!(this.pointer));
   }
 
-  /** Frees its memory; may be called twice. */
+  /** Frees the estimator's memory; may be called twice. */
   free(): void {
     if (this.pointer === 0) return;
     this.native.functions.wisp_wind_free!(this.pointer);
@@ -137,7 +137,7 @@ export class WindLevel {
     for (const room of [this.samples, this.frames, this.counts]) this.native.free(room);
   }
 
-  // A freed estimator has no sample buffer either.
+  // Throws the library's error if the estimator is freed, before its freed buffers are used.
   private living(): void {
     if (this.pointer === 0) this.native.check(this.native.functions.wisp_wind_reset!(0));
   }

@@ -1,7 +1,7 @@
 // The wind estimator off the main thread: an AudioWorklet processor with its own instance of the WebAssembly module.
 //
-// One file that imports types only, as bundlers copy the file of AudioWorklet.addModule() unchanged. Its numbers equal
-// those of layout.ts (a test compares them), which a compile-time check compares with the C ABI.
+// One file that imports types only, as bundlers copy the file of AudioWorklet.addModule() unchanged. Its offsets equal
+// those of layout.ts (a test compares results), which a compile-time check compares with the C ABI.
 
 import type { WindCalibration, WindFrame } from './wind.js';
 
@@ -72,17 +72,17 @@ class Ears {
     if (options.calibration) this.know(options.calibration);
   }
 
-  /** Value of a function of the estimator. */
+  /** Returns the value of one of the estimator's functions. */
   ask(name: string): number {
     return this.functions[name]!(this.wind);
   }
 
-  /** Calls a function of the estimator; throws its sentence on failure. */
+  /** Calls one of the estimator's functions; on failure throws its error message. */
   call(name: string, ...values: number[]): void {
     this.check(this.functions[name]!(this.wind, ...values));
   }
 
-  /** Feeds a block of one channel. Calls `each` with the position of every frame it completed. */
+  /** Feeds a block of one channel. Calls `each` with the address of every frame that the block completes. */
   feed(block: Float32Array, each: (data: DataView, at: number) => void): void {
     new Float32Array(this.memory.buffer, this.samples, block.length).set(block);
     for (let taken = 0; taken < block.length; ) {
@@ -125,7 +125,7 @@ class Ears {
 
   private check(status: number): void {
     if (status === 0) return;
-    // Worklets have no TextDecoder; the ABI's sentences about wind are plain ASCII.
+    // Worklets have no TextDecoder; the estimator's error messages are plain ASCII.
     const bytes = new Uint8Array(this.memory.buffer);
     const from = this.functions.wisp_last_error!();
     throw new Error(String.fromCharCode(...bytes.subarray(from, bytes.indexOf(0, from))));
@@ -177,7 +177,7 @@ class WindProcessor extends AudioWorkletProcessor {
     this.wasCalibrating = calibrating;
   }
 
-  // One channel is requested of microphones; several are averaged.
+  // Averages the channels, as some browsers give more than the requested one.
   private mix(channels: Float32Array[]): Float32Array {
     if (channels.length === 1) return channels[0]!;
     const length = channels[0]!.length;

@@ -9,7 +9,7 @@ import { executablePath, models, quiet, serveInstalled, skip, until, watched, wa
 import { load } from '../dist/index.js';
 import { Chance, hashOfLife } from './lives.mjs';
 
-/** Two seconds of a room, two of blowing, as a WAV file. */
+/** Writes a WAV file with two seconds of a room and two of blowing. */
 function writeBreath(path) {
   const rate = 48000;
   const samples = new Int16Array(4 * rate);

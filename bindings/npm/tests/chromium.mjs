@@ -20,7 +20,7 @@ const types = { '.css': 'text/css', '.html': 'text/html', '.js': 'text/javascrip
   '.svg': 'image/svg+xml', '.jpg': 'image/jpeg', '.png': 'image/png', '.webmanifest': 'application/manifest+json' };
 const policy = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; object-src 'none'";
 
-/** Serves a folder, under a strict policy unless its pages have one of their own. */
+/** Serves a folder; `strict`: with a strict content security policy. */
 export function serve(folder, strict = true) {
   const server = createServer((request, response) => {
     const path = join(folder, normalize(new URL(request.url, 'http://localhost').pathname));
@@ -49,10 +49,10 @@ export async function seen(what, holds) {
   }
 }
 
-/** Waits until an expression is true in a page. Polls from here, since the page's policy forbids Playwright's own wait. */
+/** Waits until an expression is true in a page. Polls, as the page's policy forbids Playwright's own wait. */
 export const until = (page, expression) => seen(expression, () => page.evaluate(`Boolean(${expression})`));
 
-/** A new page that keeps its errors in `page.errors`, and requests to other addresses in `page.strangers`. */
+/** Opens a page that keeps its errors in `page.errors`, and requests to other addresses in `page.strangers`. */
 export async function watched(browser, address, options = {}) {
   const page = await browser.newPage(options);
   page.setDefaultTimeout(patience);
@@ -67,12 +67,12 @@ export async function watched(browser, address, options = {}) {
 export function wavOf(samples, rate) {
   const size = samples.byteLength;
   const [riff, wave, fmt, data] = ['RIFF', 'WAVE', 'fmt ', 'data'].map((name) => Buffer.from(name).readUInt32LE());
-  // PCM and one channel, and two bytes a sample of 16 bits, are pairs of 16-bit numbers.
+  // Pairs of 16-bit fields are written as one number: PCM and 1 channel, 2 bytes a sample and 16 bits.
   const header = new Uint32Array([riff, 36 + size, wave, fmt, 16, 1 + (1 << 16), rate, 2 * rate, 2 + (16 << 16), data, size]);
   return Buffer.concat([Buffer.from(header.buffer), Buffer.from(samples.buffer)]);
 }
 
-/** Serves pages that use the package as npm packs it, by name; a page with a configuration for Vite is built. `close()` ends all. */
+/** Serves pages that use the packed package, by name, and builds those that have a configuration for Vite. */
 export async function serveInstalled(...names) {
   const { build } = await import('vite');
   const work = mkdtempSync(join(tmpdir(), 'wisp-player-'));
@@ -94,7 +94,7 @@ export async function serveInstalled(...names) {
   return { work, address: (name) => `http://localhost:${servers[name].address().port}/`, close };
 }
 
-/** A folder with the packed package installed, a page, and the scripts that pages share. */
+/** Creates a folder with the packed package installed, a page, and the scripts that pages share. */
 function furnish(work, tarball, name) {
   const folder = join(work, name);
   const installed = join(folder, 'node_modules/@wisp/player');

@@ -1,6 +1,6 @@
 // Plays models and sounds as tests/c/frames_in_c.c does, through the package: the hashes must be equal.
 
-/** Two of FNV's 32-bit hashes, word by word, the second of the word with its halves swapped. */
+/** Two FNV-1a hashes over 32-bit words; the second takes each word with its halves swapped. */
 export class Hash {
   words = new Uint32Array(2).fill(2166136261);
 
@@ -17,7 +17,7 @@ export class Hash {
   }
 }
 
-/** −1 to 1, by a linear congruence. */
+/** Random numbers from −1 to 1, by a linear congruential generator. */
 export class Chance {
   state = 1;
 

@@ -72,7 +72,7 @@ test('a flame model says what it is', () => {
   assert.deepEqual([outputs.length, outputs[15].name], [16, 'p7.y']);
   assert.deepEqual([facts.rateHz, facts.stepNanoseconds, facts.controlPoints, facts.metresPerUnit], [30, 33333333, 8, 0.03]);
   assert.deepEqual(facts.blowOut, { input: 0, level: 1.3, seconds: 0.15, haste: 2, recoverySeconds: 0.3 });
-  // Its file does not say what it costs, and the module does not count.
+  // The file stores no operation counts, and the module computes none.
   assert.deepEqual([facts.multiplyAddsPerFrame, facts.operationsPerFrame], [0, 0]);
   assert.deepEqual([arx.regressors, arx.resamples, arx.noise.length], [6, false, 16]);
   assert.deepEqual(arx.na[0].slice(0, 3), [4, 4, 0]);
@@ -154,7 +154,7 @@ test('instances are spawned, lead lives of their own and are ended', () => {
   for (let k = 0; k < 20; ++k) bank.step();
   const all = bank.outputsView();
   assert.equal(all.length, 3 * 16);
-  assert.deepEqual(bank.instanceOutputs(first), bank.instanceOutputs(twin)); // the same stream
+  assert.deepEqual(bank.instanceOutputs(first), bank.instanceOutputs(twin)); // both use random stream 0
   assert.notDeepEqual(bank.instanceOutputs(first), bank.instanceOutputs(second));
   assert.deepEqual(bank.polylinesView().slice(24, 48), bank.polyline(second).slice());
   bank.end(second);
@@ -416,7 +416,7 @@ test('memory stays flat over many lives', () => {
   assert.equal(wisp.memoryBytes, before);
 });
 
-// A breath: noise that falls by 12 dB an octave, as wind does at a microphone's capsule. `level`: factor of its amplitude.
+// A breath: noise that falls by 12 dB an octave, as wind does at a microphone. `level`: factor of its amplitude.
 function breath(seconds, rate, level, chance) {
   const sound = new Float32Array(Math.round(seconds * rate));
   let slow = 0;

@@ -12,7 +12,7 @@ const wisp = await load();
 const flame = readFileSync(new URL('../dist/models/flame.wisp', import.meta.url));
 const pointer = { x: 0, y: 0, fromX: 0, fromY: 0, speedX: 0, speedY: 0, present: false };
 
-/** A scene seen from an azimuth, and its tip's mean lean to the right and away while some air blows. */
+/** Plays a scene seen from an azimuth while `air` blows. Returns the tip's mean lean to the right and away. */
 function leaning(azimuth, air, { count = 1, seconds = 3, noise = 0 } = {}) {
   const scene = new CandleScene(wisp.model(flame), { seed: 5, noise, count });
   scene.frame(800, 600, 0, false);
@@ -34,7 +34,7 @@ test('a breath from the eye leans it away and not aside; a wind across leans it 
 });
 
 test('one flame in one wind is the same from every side', () => {
-  // Converts a wind from the room's axes to the eye's; with a negative azimuth, the tip from the eye's axes to the room's.
+  // Converts from the room's axes to the eye's, or with a negative azimuth from the eye's axes to the room's.
   const seen = (azimuth, x, z) => [Math.cos(azimuth) * x - Math.sin(azimuth) * z, Math.sin(azimuth) * x + Math.cos(azimuth) * z];
   const tips = [0, 2.1].map((azimuth) => {
     const [right, near] = seen(azimuth, 0.4, -0.2);

@@ -33,7 +33,7 @@ test('it says the wind that WindLevel says, and when a calibration has ended', (
   tell(processor, { type: 'calibrate', seconds: 1, ask: 1 });
   assert.equal(play(processor, 5), true);
   const level = wisp.windLevel({ sampleRate: 48000 });
-  for (const ask of [3, 'blow hard']) level.calibrate(ask, 1); // a number, as for the room, changes nothing
+  for (const ask of [3, 'blow hard']) level.calibrate(ask, 1); // a number as `ask` does nothing
   const expected = [...gusts(5)].flatMap((block) => level.feed(block));
   const frames = processor.said.filter(({ type }) => type === 'wind');
   assert.equal(frames.length, 300);

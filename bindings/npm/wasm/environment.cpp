@@ -1,5 +1,5 @@
-// Replaces the C library's read of environment variables at start: there are none, so that the host need not provide a
-// function for it.
+// Gives the C library an empty environment at start, so that the host need not provide functions for environment
+// variables.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // Allocation in WebAssembly. Without exceptions the C++ library would return null on failure, and address 0 is ordinary
-// memory here, so failure must stop the module. Code that can report it uses nothrow.
+// memory here, so failure must stop the module. Code that can report a failure uses nothrow.
 
 #include <cstdlib>
 #include <new>

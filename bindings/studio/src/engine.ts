@@ -79,7 +79,7 @@ export class Engine extends Module {
     );
   }
 
-  /** Takes the next sound, interleaved; `begin` is used for the first block: seconds after the first frame. */
+  /** Takes the next sound, interleaved. `begin`: seconds from the first frame to the first block; later ignored. */
   sound(samples: Float32Array, channels: number, rate: number, begin: number): void {
     const bytes = new Uint8Array(samples.buffer, samples.byteOffset, samples.byteLength);
     this.withBytes(bytes, (at) => this.call('studio_sound', at, samples.length, channels, rate, begin));

@@ -5,7 +5,7 @@ import type { Exported, ExportSettings } from './types.js';
 
 const FORMATS = { glb: 0, json: 1, c: 2 } as const;
 
-/** Defaults, equal to the program's. */
+/** Defaults, equal to those of `wisp export`. */
 const DEFAULTS = { seconds: 4, instances: 1, wind: 0, seed: 1, height: 512 } as const;
 
 export class Exporter extends Module {
@@ -13,7 +13,7 @@ export class Exporter extends Module {
     return new Exporter(await compiled(module));
   }
 
-  /** The files of the program's `export`, byte for byte. Throws a StudioError with the reason where there are none. */
+  /** Returns the files that `wisp export` writes, byte for byte. Throws a StudioError if there are none. */
   files(model: Uint8Array, settings: ExportSettings): Exported[] {
     const { format, name, loop } = settings;
     const { seconds, instances, wind, seed, height } = { ...DEFAULTS, ...settings };

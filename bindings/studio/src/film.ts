@@ -8,15 +8,15 @@ import { rawOfFrame } from './pictures.js';
 /** Formats written by cameras, phones and browsers. */
 const FORMATS = [MP4, QTFF, MATROSKA, WEBM];
 
-/** Number of glimpses over the whole film before the first frame. */
+/** Number of key frames, over the whole film, that the engine receives before the first frame. */
 const GLIMPSES = 4;
 
-/** Rates of cameras, Hz; a rate within 0.4 % of one of these is taken as it. */
+/** Rates of cameras, Hz; a rate within 0.4 % of one of these is rounded to it. */
 const RATES = [24_000 / 1001, 24, 25, 30_000 / 1001, 30, 48, 50, 60_000 / 1001, 60, 90, 100, 120_000 / 1001, 120, 240_000 / 1001, 240];
 
 /**
- * Rate of the frames' grid: the camera's, from the usual interval between frames, unless too many of its frames were
- * lost; then the mean rate.
+ * Returns the rate of the frame grid: the camera's, from the usual interval between frames, or the mean rate where a
+ * third of the camera's frames or more were lost.
  */
 function gridRate(times: readonly number[]): number {
   const sorted = [...times].sort((a, b) => a - b);
@@ -61,7 +61,7 @@ async function timesOf(track: InputVideoTrack): Promise<number[]> {
   return times;
 }
 
-/** Passes key frames at the ends of the film's quarters to the engine. */
+/** Passes the last key frame before the end of each quarter of the film to the engine. */
 async function glimpse(engine: Engine, track: InputVideoTrack, first: number, last: number, stated: VideoColorSpaceInit): Promise<void> {
   const packets = new EncodedPacketSink(track);
   const frames = new VideoSampleSink(track);
@@ -93,7 +93,7 @@ async function hear(engine: Engine, input: Input, first: number): Promise<string
   return '';
 }
 
-/** Passes a whole film to the engine. `looked` receives the stored frame and the finished share after each frame. */
+/** Passes a whole film to the engine. `looked`: called after each frame, with the finished share. Returns warnings. */
 export async function showFilm(
   engine: Engine,
   file: Blob,

@@ -13,7 +13,7 @@ export type Task =
   | { do: 'live'; settings: CaptureSettings }
   | { do: 'finish' };
 
-/** A task, input of a live capture, or notice that a picture was drawn; each has the number of its work. */
+/** A task, input of a live capture, or notice that a picture was drawn. `of`: number of the work that it concerns. */
 export type ToWorker =
   | { of: number; task: Task }
   | { of: number; shown: true }

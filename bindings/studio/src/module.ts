@@ -20,8 +20,8 @@ export async function compiled(module: WebAssembly.Module | BufferSource): Promi
 }
 
 /**
- * Meaning of an error without a sentence. Stack overflows are faults; other range errors of browsers mean that they
- * refuse memory.
+ * Converts an engine's error to a StudioError: traps and stack overflows are faults of Wisp, other range errors mean
+ * that the browser refuses memory. Returns other errors unchanged.
  */
 export function sentenceOf(error: unknown): unknown {
   if (error instanceof WebAssembly.RuntimeError || (error instanceof RangeError && /stack/i.test(error.message))) {
@@ -30,7 +30,7 @@ export function sentenceOf(error: unknown): unknown {
   return error instanceof RangeError ? new StudioError(NO_MEMORY, { cause: error }) : error;
 }
 
-/** Runs work that needs memory, and throws failures as sentences. After such a failure the module is unusable. */
+/** Runs work that needs memory; converts its errors by sentenceOf(). After an error the module is unusable. */
 export function told<T>(work: () => T): T {
   try {
     return work();
@@ -52,12 +52,12 @@ export class Module {
     this.functions._initialize?.();
   }
 
-  /** Current size of its memory in bytes; it grows and never shrinks. */
+  /** Current size of the module's memory in bytes; it grows and never shrinks. */
   get memoryBytes(): number {
     return this.memory.buffer.byteLength;
   }
 
-  /** Calls a function with an answer, and throws its sentence on failure. */
+  /** Calls a function of the module; on failure throws the answer's text. */
   protected call(name: string, ...values: number[]): void {
     const asked = this.functions[name];
     if (asked === undefined) throw new Elsewhere('this module learns and does not capture; studio.wasm does');

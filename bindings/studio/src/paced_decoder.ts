@@ -1,10 +1,10 @@
-// A film decoder that does not run ahead of analysis. Mediabunny passes forty packets to a decoder while no frame is
-// out, and all would wait as frames: 55 MB at 720p, 120 MB at 1080p. Here packets wait instead.
+// A film decoder that does not run ahead of analysis. Mediabunny passes up to forty packets ahead to a decoder, and
+// all would wait as frames: 55 MB at 720p, 120 MB at 1080p. Here packets wait instead.
 
 /** Maximum number of open frames; decoding and analysis still overlap. */
 const MAX_FRAMES = 4;
 
-/** The browser's decoder class with that pacing. */
+/** Returns a subclass of the browser's decoder that gets packets only while fewer than MAX_FRAMES frames are open. */
 export function paced(Native: typeof VideoDecoder): typeof VideoDecoder {
   return class PacedDecoder extends Native {
     private readonly waiting: EncodedVideoChunk[] = [];

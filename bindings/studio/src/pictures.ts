@@ -12,13 +12,13 @@ let canvas: OffscreenCanvas | null = null;
 let room = new Uint8Array(0);
 
 /**
- * Whether luma and colour differences are of BT.709 instead of BT.601. A film whose file states neither is BT.601, as in
- * the program (src/capture/media/frame_picture.cpp), whatever the browser guesses from its size. `stated`: from the file;
- * undefined for a camera, whose frames state it.
+ * Whether colours are of BT.709 instead of BT.601. A film whose file states neither is BT.601, as in the program
+ * (src/capture/media/frame_picture.cpp), whatever the browser guesses. `stated`: from the file; undefined for a
+ * camera, whose frames state it.
  */
 export const isBt709 = (stated: VideoColorSpaceInit | undefined, frame: VideoColorSpaceInit): boolean => (stated ?? frame).matrix === 'bt709';
 
-/** A frame of a decoder or camera, valid until the next. `turn`: clockwise rotation in degrees for display. */
+/** Returns a frame's pixels, valid until the next call. `turn`: clockwise rotation in degrees for display. */
 export async function rawOfFrame(frame: VideoFrame, turn = 0, stated?: VideoColorSpaceInit): Promise<RawPicture> {
   const { width, height } = frame.visibleRect ?? { width: frame.codedWidth, height: frame.codedHeight };
   const shifts = SHIFTS[frame.format ?? ''];
@@ -48,7 +48,7 @@ function turned(picture: RawPicture, quarters: number): RawPicture {
   const planes = picture.planes.map(({ offset, stride, step }, k) => {
     const [wide, tall] = sizes[k === 0 ? 0 : 1];
     const plane = { offset: next, stride: sideways ? tall : wide, step: 1 };
-    // The end of a row or column comes first.
+    // In the source plane: address of the first pixel, and steps to the next pixel and to the next row.
     const [outWidth, outHeight] = sideways ? [tall, wide] : [wide, tall];
     const [first, along, down] =
       quarters === 1 ? [offset + (tall - 1) * stride, -stride, step]
@@ -76,5 +76,5 @@ function redrawn(shown: VideoFrame | ImageBitmap, width: number, height: number,
   return { layout: 'rgb', width: across, height: down, data, planes: [0, 1, 2].map((offset) => ({ offset, stride: 4 * across, step: 4 })) };
 }
 
-/** A still picture. */
+/** Returns a still picture's pixels. */
 export const rawOfBitmap = (bitmap: ImageBitmap): RawPicture => redrawn(bitmap, bitmap.width, bitmap.height, 0);

@@ -1,5 +1,5 @@
 // Small preview of a frame, made of the frame's own planes. Drawing a frame to a canvas uses the graphics card; where
-// that is software, it competes with the worker for two cores, and the page draws five pictures a second.
+// that is emulated, it competes with the worker for two cores, and the page draws five pictures a second.
 
 import type { RawPicture } from './engine.js';
 
@@ -14,13 +14,13 @@ export interface SmallPicture {
 /** Reused buffers for previews and their planes, which avoid ten megabytes of garbage per second. */
 const rooms: Uint8ClampedArray<ArrayBuffer>[] = [];
 
-/** The k-th buffer, with that many bytes. */
+/** Returns the k-th buffer, renewed if its size is not `bytes`. */
 function roomFor(k: number, bytes: number): Uint8ClampedArray<ArrayBuffer> {
   const room = rooms[k];
   return room?.length === bytes ? room : (rooms[k] = new Uint8ClampedArray(bytes));
 }
 
-/** Preview with at most `most` pixels per side, each the mean of the pixels that it covers; valid until the next. */
+/** Preview with at most `most` pixels per side, each the mean of the pixels it covers; valid until the next call. */
 export function smallPicture(picture: RawPicture, most: number): SmallPicture {
   const share = Math.min(1, most / Math.max(picture.width, picture.height));
   const [width, height] = [Math.max(1, Math.round(picture.width * share)), Math.max(1, Math.round(picture.height * share))];

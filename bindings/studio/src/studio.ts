@@ -12,9 +12,9 @@ export interface LiveCapture {
   sound(samples: Float32Array, rate: number, seconds: number): void;
   /** number of frames waiting for analysis; if it grows, feed fewer */
   readonly waiting: number;
-  /** whether it accepts input: false once its worker has stopped; `finish` reports the reason */
+  /** whether the capture accepts input; false once it has failed or ended, for a reason that `finish` reports */
   readonly alive: boolean;
-  /** Ends the capture. Rejects with a sentence where nothing can be learned from. */
+  /** Ends the capture. Rejects with a sentence if there is no usable recording. */
   finish(): Promise<Captured>;
   /** Abandons the capture. */
   cancel(): void;
@@ -30,7 +30,7 @@ interface Pending {
 
 const stopped = (): DOMException => new DOMException('stopped', 'AbortError');
 
-/** Calls `act` after the page has drawn its current state; immediately where it draws nothing. */
+/** Calls `act` after the page has drawn its current state; immediately if the page is hidden. */
 function afterNextPicture(act: () => void): void {
   if (document.hidden) act();
   else requestAnimationFrame(() => requestAnimationFrame(act));
@@ -53,7 +53,7 @@ export class Studio {
     return studio;
   }
 
-  /** Captures a film file with sound and picture, decoded here. */
+  /** Captures a film file with sound and picture, decoded in the worker. */
   film(file: File, settings: PictureSettings, watch: Watch = {}): Promise<Captured> {
     if (typeof VideoDecoder === 'undefined') {
       return Promise.reject(new StudioError('this browser cannot take films apart (it has no WebCodecs): a current Chrome, Edge, Safari or Firefox can'));
@@ -182,7 +182,7 @@ export class Studio {
       if ('done' in message) work.resolve(message.done);
       else {
         work.reject(new StudioError(message.failed));
-        // After running out of memory, a new worker starts with fresh memory.
+        // The module is unusable after a fault or without memory: later work starts a new worker.
         if (message.dead) this.dismiss(new StudioError(message.failed));
       }
     }

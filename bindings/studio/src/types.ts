@@ -5,7 +5,7 @@ export type Region = Record<'x' | 'y' | 'width' | 'height', number>;
 
 /** Settings of a film's capture. Omitted ones have the program's defaults. */
 export interface PictureSettings {
-  /** an outline in the wind, or something light falling before a plain wall; `either`: falls if usable; default: `flame` */
+  /** an outline in the wind, or an object falling before a plain wall; `either`: falls if usable; default: `flame` */
   looks_for?: 'flame' | 'falls' | 'either';
   /** for falls: height in metres of the wall in the picture; default 1 */
   height?: number;
@@ -43,7 +43,7 @@ export interface Seen {
   clipped: number | null;
   /** number of flames, once decided */
   flames: number | null;
-  /** a small copy of the frame, for films only; the receiver closes it */
+  /** a small copy of the frame, for films and pictures, not for cameras; the receiver closes it */
   picture?: ImageBitmap;
 }
 
@@ -79,7 +79,7 @@ export interface Captured {
   /** source of the rate; empty where it was stated */
   why: string;
   rows: number;
-  /** first rows of episodes, between which no history is used */
+  /** first rows of episodes; a model's history never crosses their boundaries */
   episodes: number[];
   series: Series[];
   report: Report;
@@ -94,11 +94,11 @@ export interface Recipe {
   /** names of the recordings in messages and in the model; default recording.csv */
   sources?: string[];
   seed?: number;
-  /** for falls with noisy positions: odd number of rows for velocities; default 0 */
+  /** for falls with noisy positions: odd number of rows over which velocities are taken; default 0 */
   smooth_rows?: number;
   /** lags of outputs and inputs of an ARX model; 0: default */
   order?: number;
-  /** outline as in the paper: order of one system per control point; 0: shape components */
+  /** for outlines: order of one system per control point; 0: systems of shape components */
   paper?: number;
   /** lags of inputs and delay of an ARX model; names of its channels where the table lacks roles */
   nb?: number;

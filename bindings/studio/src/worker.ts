@@ -19,7 +19,7 @@ const SHOWN_SHARE = 1 / 16;
 const SHOWN_PIXELS = 512;
 /** Maximum wait for the page to draw: hidden pages draw nothing. */
 const SHOWN_WITHIN_MS = 200;
-/** Longer gaps in live sound are filled with silence. */
+/** Gaps in live sound that are longer than this are filled with silence. */
 const LOST_SECONDS = 0.05;
 
 async function fetched(address: URL): Promise<ArrayBuffer> {
@@ -43,7 +43,7 @@ const engine = fetched(new URL('./studio.wasm', import.meta.url)).then((bytes) =
 const chains = onDemand(async () => Engine.start(await fetched(new URL('./chains.wasm', import.meta.url))));
 const exporter = onDemand(async () => Exporter.start(await fetched(new URL('./export.wasm', import.meta.url))));
 
-// The first caller awaits it and reports its failure.
+// Callers that await the engine report its failure; without this an early failure would be unhandled.
 engine.catch(() => undefined);
 
 const tell = (message: FromWorker, carried: Transferable[] = []): void => self.postMessage(message, { transfer: carried });
@@ -51,7 +51,7 @@ const tell = (message: FromWorker, carried: Transferable[] = []): void => self.p
 /** Called when the page has drawn the findings. */
 let shown: () => void = () => undefined;
 
-/** Waits until shown() is called. With few processors, the page would otherwise draw only after the film's end. */
+/** Waits for shown(), or SHOWN_WITHIN_MS. With few processors, the page would otherwise draw only at the film's end. */
 const drawn = (): Promise<void> =>
   new Promise((resolve) => {
     const late = setTimeout(resolve, SHOWN_WITHIN_MS);
@@ -84,7 +84,7 @@ class Live {
   private first: number | null = null;
   private early: { sound: Float32Array; rate: number; seconds: number }[] = [];
   private heardTo: number | null = null;
-  /** reason why it cannot continue */
+  /** error that ended the capture; null while it runs */
   private failure: unknown = null;
   /** whether it was abandoned: the engine then captures something else, and waiting input is discarded */
   abandoned = false;
@@ -232,7 +232,7 @@ async function answer(of: number, task: Task): Promise<void> {
     if (done !== null) tell({ of, done });
   } catch (thrown) {
     const error = sentenceOf(thrown);
-    // An error with a cause has made the module unusable.
+    // A StudioError with a cause has made the module unusable.
     tell({ of, failed: error instanceof Error ? error.message : String(error), dead: error instanceof StudioError && error.cause !== undefined });
   }
 }
@@ -243,7 +243,7 @@ self.addEventListener('message', ({ data }: MessageEvent<ToWorker>) => {
   else if ('frame' in data) {
     if (live !== null) live.frame(data.frame, data.seconds);
     else {
-      // The module is still loading: frames that cannot be analysed are dropped.
+      // The capture has not begun, as the module is still loading, or has ended: the frame is dropped.
       data.frame.close();
       tell({ of: data.of, looked: 1 });
     }

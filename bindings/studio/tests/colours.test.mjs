@@ -12,7 +12,7 @@ import { isBt709 } from '../dist/pictures.js';
 const folder = mkdtempSync(join(tmpdir(), 'wisp-colours-'));
 const tags = (name) => (name === '' ? [] : ['-colorspace', name, '-color_primaries', name, '-color_trc', name]);
 
-/** The colour space that a file states which ffmpeg made with the flags `more`. */
+/** Writes a film by ffmpeg with the flags `more`. Returns the colour space that the file states. */
 async function statedIn(file, ...more) {
   const path = join(folder, file);
   execFileSync('ffmpeg', ['-y', '-loglevel', 'error', '-f', 'lavfi', '-i', 'testsrc=size=1280x720:rate=10:duration=0.2', '-pix_fmt', 'yuv420p', '-c:v', 'libx264', ...more, path]);

@@ -1,5 +1,5 @@
-// Compares the modules with the program: the same frames and sound give the same recording, and the same recording the same
-// model. ffmpeg decodes for both, since the program's decoder is FFmpeg's.
+// Compares the modules with the program: the same frames and sound give the same recording, and the same recording the
+// same model. ffmpeg decodes for both, since the program's decoder is FFmpeg's.
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';

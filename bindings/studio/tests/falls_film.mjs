@@ -26,7 +26,7 @@ function picture(frame) {
   return grey;
 }
 
-/** Writes the film with that many falls. */
+/** Writes the film with a number of falls. Returns its path. */
 export function fallsFilm(film, falls) {
   const input = Buffer.concat(Array.from({ length: falls * FRAMES_A_FALL }, (_, frame) => picture(frame)));
   const raw = ['-f', 'rawvideo', '-pix_fmt', 'gray', '-s', `${WIDTH}x${HEIGHT}`, '-r', String(RATE), '-i', '-'];

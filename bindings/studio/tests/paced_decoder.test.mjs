@@ -1,4 +1,4 @@
-// The paced decoder around a mock of a decoder that takes every packet at once, and reorders.
+// The paced decoder around a mock that accepts every packet at once and emits frames three packets late.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';

@@ -15,7 +15,7 @@ struct Answer {
   std::vector<double> numbers;
 };
 
-/// The only answer.
+/// Returns the module's only answer.
 Answer& answer();
 
 /// Return values of calls.
@@ -26,7 +26,7 @@ inline constexpr int kElsewhere = 2;  ///< failed: the other module is responsib
 /// Clears the answer for a new call.
 Answer& fresh();
 
-/// Sets the answer to an error's sentence.
+/// Sets the answer's text to an error's message. Returns kFailed.
 int fail(const Error& error);
 
 }  // namespace wisp::studio

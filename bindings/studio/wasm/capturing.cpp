@@ -16,7 +16,7 @@ using nlohmann::json;
 // State of the current capture.
 struct Desk {
   std::optional<LiveCapture> capture;
-  std::optional<FallCapture> falls;  // beside `capture`, where the film may show either
+  std::optional<FallCapture> falls;  // alone, or beside `capture` where the film may show either
   std::optional<FrameGrid> grid;
   std::string source;
 };
@@ -42,7 +42,7 @@ ClipCapture capture_options(const json& from) {
   return options;
 }
 
-// Limit of reduced pictures, one byte per pixel: half a minute of a wide film at 60 frames a second takes 100 MB.
+// Maximum size of all stored reduced pictures: half a minute of a wide film at 60 frames a second takes 100 MB.
 constexpr std::size_t kMaxFallBytes = 192u << 20;
 
 FallOptions fall_options(const json& from) {
@@ -65,7 +65,7 @@ Result<void> take_in(Desk& all, const Picture& picture, double seconds) {
   return capture.feed(picture);
 }
 
-// Decides whether the film shows a flame or falls: a film of a flame never gives usable falls.
+// Returns the recording of falls if it is usable or alone, else that of the outline. Flames give no usable falls.
 Result<Captured> finished(Desk& all) {
   const ClipTimes times{.offsets = all.grid->offsets(), .shortened = all.grid->shortened()};
   if (!all.falls) return all.capture->finish(times);

@@ -14,7 +14,7 @@ enum class Format { kGltf, kLottie, kC };
 
 // Writes the file; for C the source, with its header as the answer's text.
 Result<void> write(const Model& model, Format format, const TakeOptions& options, int height, const char* name) {
-  // A linear system has inputs, a lamp has none.
+  // A plain model with inputs is exported as a linear system, any other as a lamp's firmware.
   if (format == Format::kC && std::holds_alternative<PlainView>(model.view) && !model.inputs.empty()) {
     auto plant = plant_text(model, PlantLanguage::kC, name);
     if (!plant) return plant.error();
@@ -49,8 +49,8 @@ Result<void> write(const Model& model, Format format, const TakeOptions& options
 using namespace wisp;
 using namespace wisp::studio;
 
-// A model's play as a file; `wind` is a constant value of every input. `name` is zero-terminated and the prefix of all
-// names in C.
+// Writes a model's play as a file; `wind` is a constant value of every input. `name` is zero-terminated and the prefix
+// of all names in C.
 extern "C" __attribute__((export_name("studio_export"))) int studio_export(const std::byte* bytes, std::size_t size,
                                                                            int format, double seconds, int loop,
                                                                            int instances, double wind, double seed,

@@ -21,7 +21,7 @@ namespace {
 
 using nlohmann::json;
 
-// Recordings added for learning.
+// Recordings added for learning or validation.
 std::vector<Recording>& recordings() {
   static std::vector<Recording> all;
   return all;
@@ -52,7 +52,7 @@ SomeRecipe with_settings(const json& from, SomeRecipe recipe) {
   return recipe;
 }
 
-// The recipe; for models of the other module its kind only.
+// Returns the recipe; for a model of the other module a default one, in which of_chain() recognises that module.
 Recipe recipe_of(const json& from) {
   const std::string kind = from.value("kind", "flame");
   const bool chain = kind == "chain" || kind == "leaf";
@@ -71,7 +71,7 @@ Recipe recipe_of(const json& from) {
   }
 }
 
-// Judges, on the last `share` of the rows, a model learned from the rows before; empty where either part is too short.
+// Judges, on the last `share` of the rows, a model learned from the rows before; empty if either step fails.
 std::optional<json> judged_on_the_end(const std::vector<Recording>& recordings, const Recipe& recipe, double share) {
   std::vector<Recording> begins, ends;
   for (const Recording& recording : recordings) {

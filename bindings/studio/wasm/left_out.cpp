@@ -20,7 +20,7 @@ Result<Report> validate_switched(const Model&, const Recording&, const Validatio
   return left_out("models that switch");
 }
 
-// Never called.
+// Never called; the linker needs a definition.
 void markov::describe(const SwitchedArxModel&, const std::string&, ReportSection&) {}
 
 }  // namespace wisp

@@ -9,7 +9,7 @@
 
 namespace wisp::studio {
 
-/// The report as in the program's --json, with its text and, for plots, its series.
+/// Returns {report, curves, text}: the report as --json prints it, its series for plots, and its text.
 nlohmann::json report_json(const Report& report);
 
 /// Reads a table or a recording from CSV: {name, rate, inputs, outputs}.

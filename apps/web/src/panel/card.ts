@@ -43,7 +43,7 @@ export class Card {
       ),
     );
     place.addEventListener('keydown', (event) => {
-      // Keys type text here.
+      // Keys type text here and do not act on the page.
       if (event.key === 'Escape') app.showCard(false);
       event.stopPropagation();
     });
@@ -72,7 +72,7 @@ export class Card {
     return element('div', { class: 'field' }, element('label', { for: `card-${name}` }, words), input);
   }
 
-  /** Ages above the maximum number of candles use digit candles. */
+  /** Sets the number of candles to the age; above MAX_CANDLES digit candles show the age. */
   private changeAge(): void {
     const years = Math.min(999, Math.max(0, Math.floor(this.age.valueAsNumber || 0)));
     if (years > MAX_CANDLES) this.inFigures.checked = true;

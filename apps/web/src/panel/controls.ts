@@ -1,4 +1,4 @@
-// Controls over the picture: scenes, number, blow, and the scene's own action.
+// Controls over the stage: scene tabs, number of candles or leaves, microphone button, action button (light or kick).
 
 import type { App } from '../app.js';
 import { MAX_CANDLES, MAX_LEAVES, type SceneName, type Settings } from '../link.js';

@@ -30,7 +30,7 @@ export class Drawer {
     });
   }
 
-  /** Whether tilt and touch are on. */
+  /** Shows whether tilt and touch are on. */
   showSenses(on: boolean): void {
     this.sensesOn = on;
     this.place.querySelector('[data-knob=senses]')?.setAttribute('aria-pressed', String(on));
@@ -40,7 +40,7 @@ export class Drawer {
     return !this.place.hidden;
   }
 
-  /** Whether one of its controls has the focus. */
+  /** Whether one of the drawer's controls has the focus. */
   get holdsFocus(): boolean {
     return this.place.contains(document.activeElement);
   }

@@ -12,7 +12,7 @@ export function element<Tag extends keyof HTMLElementTagNameMap>(
   return filled(document.createElement(tag), attributes, children);
 }
 
-/** Creates an SVG element likewise. */
+/** Creates an SVG element with attributes, listeners and children. */
 export function drawing<Tag extends keyof SVGElementTagNameMap>(tag: Tag, attributes: Attributes, ...children: SVGElement[]): SVGElementTagNameMap[Tag] {
   return filled(document.createElementNS('http://www.w3.org/2000/svg', tag), attributes, children);
 }
@@ -35,7 +35,7 @@ export const closeButton = (close: () => unknown): HTMLButtonElement => button('
 export const definitions = (facts: readonly (readonly [name: string, value: string])[]): HTMLElement[] =>
   facts.flatMap(([name, value]) => [element('dt', {}, name), element('dd', {}, value)]);
 
-/** The element with that id. Throws if it is missing or of another kind: page and script are of different versions. */
+/** Returns the element with an id. Throws if it is missing or of another kind, as with a page of another version. */
 export function byId<Kind extends HTMLElement>(id: string, kind: new () => Kind): Kind {
   const found = document.getElementById(id);
   if (!(found instanceof kind)) throw new Error(`the page has no ${kind.name} #${id}`);

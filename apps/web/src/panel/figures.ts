@@ -7,7 +7,7 @@ interface Kind {
   good: string;
 }
 
-/** Formats a number with `digits` significant digits; below 0.001 with two digits and a power of ten. */
+/** Formats a number: integers in full, below 0.001 as two digits and a power of ten, others in `digits` digits. */
 export function number(value: number, digits = 3): string {
   if (Number.isInteger(value)) return value.toLocaleString('en');
   const size = Math.abs(value);
@@ -45,7 +45,7 @@ const KINDS: Readonly<Record<string, Kind>> = {
   gust_direction_degrees: { words: 'Error of direction in gusts', unit: (value) => `${number(value)}°`, good: 'below 20°' },
 };
 
-/** Figures with several horizons: name, full stop, then frames ahead or inf. */
+/** Figures for several horizons: a full stop and the frames ahead, or inf, follow the name. */
 const AHEAD: Readonly<Record<string, Kind>> = {
   fit: { words: 'Fit of the outline', unit: percent, good: '50 % or more; 0 % is its mean' },
   tip_fit: { words: 'Fit of the tip', unit: percent, good: '50 % or more; 0 % is its mean' },

@@ -48,7 +48,7 @@ export function fillHelp(dialog: HTMLDialogElement, app: App): void {
         'page is closed. Nothing leaves this device, and nothing is stored but the page itself, so that it works without a network.',
     ),
   );
-  // A press outside closes it.
+  // A press outside closes the help.
   dialog.addEventListener('click', (event) => {
     if (event.target === dialog) dialog.close();
   });

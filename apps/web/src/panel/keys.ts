@@ -2,7 +2,7 @@
 
 import { KeyBreath } from '@wisp/player/parts/air/keys';
 
-/** Whether the focused element handles that key itself. */
+/** Whether the focused element handles the pressed key itself. */
 function keeps(target: EventTarget | null, event: KeyboardEvent): boolean {
   if (!(target instanceof HTMLElement)) return false;
   if (target.closest('dialog') !== null) return true;

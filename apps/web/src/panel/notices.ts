@@ -34,7 +34,7 @@ export class Hint {
 
   constructor(private readonly place: HTMLElement) {}
 
-  /** Shows it for a number of seconds; 0: until the next one or hide(). */
+  /** Shows a text for a number of seconds; 0: until the next text or hide(). */
   show(text: string, seconds = 0): void {
     clearTimeout(this.timer);
     if (this.place.textContent !== text) this.place.textContent = text;

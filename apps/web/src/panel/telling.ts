@@ -4,7 +4,7 @@ import { button } from './element.js';
 
 const STAYS = 4000;
 
-/** `name`: accessible name; `meanwhile`: text during the action, '' for no change; `act` returns the final text. */
+/** `name`: data-file attribute; `meanwhile`: text during the action, '' for no change; `act` returns the final text. */
 export function telling(words: string, name: string, meanwhile: string, act: () => string | Promise<string>): HTMLButtonElement {
   const tell = async (): Promise<void> => {
     if (meanwhile !== '') told.textContent = meanwhile;

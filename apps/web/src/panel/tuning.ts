@@ -23,7 +23,7 @@ export class Tuning {
   private readonly actions = element('div', { class: 'actions' });
   private readonly choice = element('select', { id: 'tuning-microphone', change: () => void this.ear.choose(this.choice.value).then(() => this.listChoices()) });
   private readonly choices = element('label', { class: 'microphones', for: 'tuning-microphone', hidden: true }, 'Microphone ', this.choice);
-  /** incremented by openings and steps: outdated ones are abandoned */
+  /** number of the latest opening or step; earlier ones that still wait are abandoned */
   private turn = 0;
   private since = 0;
   private lasts = 0;
@@ -40,7 +40,7 @@ export class Tuning {
     return !this.place.hidden;
   }
 
-  /** Shows the steps, and begins when the user asks. */
+  /** Shows the steps, and a button that begins. */
   open(): void {
     if (this.isOpen) return;
     this.turn += 1;
@@ -67,7 +67,7 @@ export class Tuning {
     this.choices.hidden = found.length < 2;
   }
 
-  /** Advances by one frame. The ring around Blow shows the sound level. */
+  /** Updates the progress bar; closes the panel if the microphone went off while listening. */
   frame(): void {
     if (!this.isOpen) return;
     if (this.ear.state === 'off' && this.lasts > 0) return this.close();
@@ -79,7 +79,7 @@ export class Tuning {
     this.offer(['Cancel', () => this.close()]);
     if (this.ear.state === 'off') await this.ear.open();
     if (turn !== this.turn) return;
-    // The microphone has already reported why it is off.
+    // open() has already reported why the microphone is off.
     if (this.ear.state === 'off') return this.close();
     this.ear.tune(true);
     await this.ask(0);

@@ -1,5 +1,5 @@
-// Tilt and touch, opt-in: tilting a phone from its rest position makes wind, rotating it about the vertical moves the eye
-// round the candle, and it vibrates when a flame goes out.
+// Tilt and touch, opt-in: tilting a phone from its rest position makes wind, rotating it about the vertical moves the
+// eye round the candle, and the phone vibrates when a flame goes out.
 
 import type { Air } from '@wisp/player/parts/stage/scene';
 
@@ -13,7 +13,7 @@ const JUMP = 0.5;
 /** Milliseconds of vibration when a flame goes out. */
 const VIBRATES = 40;
 
-/** One angle of the phone. */
+/** One angle of the phone; its deviation from a slowly following rest position is wind. */
 class Angle {
   private rest: number | null = null;
   private now = 0;
@@ -33,11 +33,11 @@ class Angle {
   }
 }
 
-/** Orientation of the picture, radians: how far its right edge is down and its upper edge up; azimuth of its right edge. */
+/** Returns the picture's orientation, radians: right edge down, upper edge up, and azimuth of the right edge. */
 function lie({ alpha, beta, gamma }: DeviceOrientationEvent): [roll: number, pitch: number, heading: number] | null {
   if (alpha === null || beta === null || gamma === null) return null;
   const [a, b, c, held] = [alpha, beta, gamma, window.screen.orientation?.angle ?? 0].map((degrees) => (degrees * Math.PI) / 180) as [number, number, number, number];
-  // Vertical in the phone's axes, and its first two axes from above, as the angles themselves jump when it is upright.
+  // The vertical in the phone's axes, and its x and y axes from above: the angles jump when the phone is upright.
   const up = [-Math.cos(b) * Math.sin(c), Math.sin(b), Math.cos(b) * Math.cos(c)] as const;
   const first = [Math.cos(a) * Math.cos(c) - Math.sin(a) * up[1] * Math.sin(c), Math.sin(a) * Math.cos(c) + Math.cos(a) * up[1] * Math.sin(c)] as const;
   const second = [-Math.sin(a) * Math.cos(b), Math.cos(a) * Math.cos(b)] as const;
@@ -68,11 +68,11 @@ export class Senses {
     this.heading = heading;
   };
 
-  /** Toggles. Call it in a press or key handler, as browsers allow the request only there. */
+  /** Toggles tilt and vibration. Call it in a press or key handler, as browsers allow the request only there. */
   toggle(): void {
     this.on = !this.on;
     if (!this.on) this.close();
-    // If refused, it vibrates without tilt.
+    // If the request is refused, the phone vibrates without tilt.
     else this.open().catch(() => undefined);
   }
 
@@ -96,7 +96,7 @@ export class Senses {
     this.heading = null;
   }
 
-  /** Wind from tilt: 1 is strong. Lowering the upper edge leans the flame away. Also decays to rest when readings stop. */
+  /** Wind from tilt: 1 is strong. Lowering the upper edge blows away. Decays to 0, also when readings stop. */
   get air(): Air {
     const seconds = (performance.now() - this.at) / 1000;
     this.at += 1000 * seconds;

@@ -25,7 +25,7 @@ export class Tune {
     return this.context !== null;
   }
 
-  /** Plays or stops it. Call it in a press handler, as browsers let sound start only there. */
+  /** Plays or stops the tune; returns whether it plays. Call it in a press handler: browsers start sound only there. */
   toggle(): boolean {
     if (this.context !== null) this.stop();
     else this.play();

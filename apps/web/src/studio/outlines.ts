@@ -30,7 +30,7 @@ export class Outlines {
   private readonly ys: Float64Array[] = [];
   private readonly spline: Spline;
 
-  /** Null for recordings of other things. */
+  /** Returns the outlines of a recording; null if it has none. */
   static of(captured: Captured): Outlines | null {
     return captured.series.some(({ name }) => name === 'p3.x') ? new Outlines(captured) : null;
   }

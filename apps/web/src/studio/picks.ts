@@ -22,7 +22,7 @@ async function filesOf(entry: FileSystemEntry): Promise<File[]> {
   }
 }
 
-/** Dropped files, with the contents of folders. */
+/** Returns the files in dropped folders; if there are no folders, the dropped files. */
 export async function unfold(files: readonly File[], entries: readonly (FileSystemEntry | null)[]): Promise<File[]> {
   const folders = entries.filter((entry): entry is FileSystemEntry => entry?.isDirectory === true);
   if (folders.length === 0) return [...files];

@@ -4,7 +4,7 @@ import type { Bank, Instance, Library } from '@wisp/player';
 import { FlameShape, MAX_POINTS } from '@wisp/player/parts/candle/flame_shape';
 import type { Outlines } from './outlines.js';
 
-/** Rows; a longer forward step restarts the play there. */
+/** Maximum forward step that is played, rows; a longer step restarts the play at its end. */
 const JUMP = 240;
 
 export class Play {
@@ -44,7 +44,7 @@ export class Play {
     while (this.row < row) {
       this.row += 1;
       if (this.hasWind) this.bank.setInstanceInputs(this.flame, [(this.outlines.wind?.[this.row] || 0) / this.one]);
-      // Lights the flame when the film's was lit.
+      // Relights the flame while the film shows one.
       if (this.burns && !this.bank.flameState(this.flame).lit && this.filmBurns()) this.bank.relight(this.flame);
       this.bank.step();
     }
@@ -61,7 +61,7 @@ export class Play {
     this.bank.free();
   }
 
-  // If the film still shows a flame after the extinguishing wind, it did not go out then, or was lit again.
+  // Whether the film shows a flame in weak wind: it then did not go out in the gust before, or was lit again.
   private filmBurns(): boolean {
     const { lean, wind } = this.outlines;
     return Number.isFinite(lean[this.row]) && (wind?.[this.row] ?? 0) < 0.2;

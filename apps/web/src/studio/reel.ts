@@ -1,9 +1,9 @@
-// Pictures kept of a film: for the strip, and for replay without a file. Their number is bounded: when it is reached,
-// every other one is dropped.
+// Pictures kept of a film: for the strip, and for replay without a file. When their maximum number is
+// reached, every other one is dropped.
 
 import type { Region, Seen } from '@wisp/studio';
 
-/** Maximum number of pictures and their maximum height in pixels: about 90 MB; beside a playable film a quarter suffices. */
+/** Maximum number of pictures without a file (about 90 MB) and beside a file; maximum height of a picture, pixels. */
 const MOST = 420;
 export const MAX_OF_FILE = 105;
 export const KEPT_HEIGHT = 200;
@@ -22,7 +22,7 @@ export class Reel {
   /** `every`: initial seconds between pictures; `most`: maximum number */
   constructor(private every = 0, private readonly most = MOST) {}
 
-  /** Whether a picture at that time would be kept. */
+  /** Whether a picture at a time would be kept. */
   wants(seconds: number): boolean {
     return seconds - this.last >= 0.98 * this.every;
   }
@@ -39,14 +39,14 @@ export class Reel {
     });
   }
 
-  /** Keeps a picture of findings, cut to the flame. Its time is the frame number from 0, as the rate is still unknown. */
+  /** Keeps a picture of findings, cut to the flame; its time is the frame number from 0, as the rate is unknown. */
   keepSeen({ picture, box, frame, width, height }: Seen): void {
     if (picture === undefined || !this.wants(frame)) return;
     const share = picture.width / width;
     const wanted = box === null ? { x: 0, y: 0, width, height } : around(box, width, height);
     const [x, y] = [Math.floor(share * wanted.x), Math.floor(share * wanted.y)];
     const [wide, tall] = [Math.max(1, Math.ceil(share * wanted.width)), Math.max(1, Math.ceil(share * wanted.height))];
-    // Rounded to whole pixels of the small picture, in pixels of the film, as an outline is drawn over it.
+    // Part of the film shown by the whole pixels that are copied, so that an outline drawn over them fits.
     const part = { x: x / share, y: y / share, width: wide / share, height: tall / share };
     createImageBitmap(picture, x, y, wide, tall, { resizeHeight: Math.min(tall, KEPT_HEIGHT), resizeQuality: 'medium' }).then(
       (bitmap) => this.keep({ seconds: frame - 1, bitmap, part }),

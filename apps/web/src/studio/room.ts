@@ -68,18 +68,18 @@ export class Room {
   private readonly app: App;
   private readonly invitation: Invitation;
   private session: Session = newSession();
-  /** The worker that captures and learns, started at first use. Rejects with a sentence where this browser cannot run it. */
+  /** Starts the worker that captures and learns at first use. Rejects with a sentence if this browser cannot. */
   private readonly studio = once(() => import('@wisp/studio').then(({ Studio }) => Studio.open()));
   private filming: Filming | null = null;
   private duet: Duet | null = null;
   private working: Working | null = null;
-  /** plots still being computed */
+  /** ends the validation that still computes plots */
   private judging: AbortController | null = null;
   /** films chosen together with the current one */
   private waiting: File[] = [];
   /** film that a dragged box refers to */
   private looked: Looked | null = null;
-  /** incremented by each display: outdated work shows nothing */
+  /** number of the latest display; work begun for an earlier one shows nothing */
   private turn = 0;
 
   constructor(private readonly door: StudioDoor) {
@@ -88,7 +88,7 @@ export class Room {
     this.story.append(this.steps, this.panel, this.spoken);
     this.place.append(this.left, this.story, this.below);
     document.querySelector('header.top')?.after(this.place);
-    // Keys that blow or pause elsewhere on the page type text here.
+    // Keys pressed in the studio do not blow, pause or act on the page.
     this.place.addEventListener('keydown', (event) => event.stopPropagation());
     fetchShipped(FLAME).then((model) => this.invitation.fill(model), () => undefined);
     this.gather();
@@ -135,7 +135,7 @@ export class Room {
     this.app.notices.say(words);
   }
 
-  /** A message for screen readers only. */
+  /** Reads a message to screen readers only. */
   announce(words: string): void {
     this.spoken.textContent = words;
   }
@@ -160,7 +160,7 @@ export class Room {
     this.showPanel(gatherPanel(this, more));
   }
 
-  /** Returns to the last display. */
+  /** Returns to the last result or film, or to the choice of sources. */
   back(): void {
     const last = this.session.takes.at(-1);
     if (this.session.learned !== null && last !== undefined) this.showResult();
@@ -240,7 +240,7 @@ export class Room {
     working.found(partOfSeen(seen, this.looked?.settings.looks_for === 'falls'));
   }
 
-  /** Stores a take: in place of an earlier version of it, else at the end. */
+  /** Stores a take: in place of an earlier version of the film, else at the end. Then analyses the next film. */
   private keep(take: Take): void {
     this.session = withTake(this.session, take);
     if (!this.lookAtNext()) this.showLook(take);
@@ -344,7 +344,7 @@ export class Room {
     }
   }
 
-  /** Takes what was filmed, or goes back where nothing was. */
+  /** Stores a filmed recording; null: goes back. */
   filmed(shot: { captured: Captured; reel: Reel; settings: PictureSettings } | null): void {
     this.filming = null;
     if (shot === null) return this.back();
@@ -509,7 +509,7 @@ export class Room {
     return (await this.studio()).table(name, bytes, settings, 'advise');
   }
 
-  /** Learns from a table, or keeps an outline's recording; without settings it is a recording, which has its own. */
+  /** Learns from a table, or keeps an outline's recording. `settings`: absent for recordings, which have their own. */
   async tabled(name: string, bytes: Uint8Array, settings?: TableSettings): Promise<void> {
     try {
       const captured = await (await this.studio()).table(name, bytes, settings);

@@ -13,7 +13,7 @@ export interface Looked {
   /** the film's file; null for pictures, tables and the camera */
   film: File | null;
   settings: PictureSettings;
-  /** analyses it again with other settings; null: the camera's film was not kept */
+  /** analyses the film again with other settings; null: the camera's film was not kept */
   again: ((settings: PictureSettings, watch: Watch) => Promise<Captured>) | null;
 }
 
@@ -51,13 +51,13 @@ export function sessionName({ takes, recipe }: Session): string {
   return name.replace(/[^\p{L}\p{N} _-]+/gu, '-').trim() || 'flame';
 }
 
-/** A new session that replaces a finished one. */
+/** Releases a session's pictures and returns a new session. */
 export function emptied({ takes }: Session): Session {
   for (const { reel } of takes) reel.close();
   return newSession();
 }
 
-/** Adds a take, in place of an earlier version of its film or last. Takes of another kind are dropped first. */
+/** Adds a take, in place of an earlier version of its film, or at the end. Takes of another kind are dropped first. */
 export function withTake(session: Session, take: Take): Session {
   const thing = shownIn(take);
   const made = session.takes.some((one) => shownIn(one) !== thing) ? emptied(session) : session;

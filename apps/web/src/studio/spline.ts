@@ -31,7 +31,7 @@ export class Spline {
     this.weights = Array.from({ length: samples }, (_, k) => weightsAt(knots, points, k / (samples - 1)));
   }
 
-  /** The line of control points; both with x and y alternating. */
+  /** Returns the curve of control points as a polyline; both have x and y alternating. */
   draw(control: ArrayLike<number>): Float32Array {
     const line = new Float32Array(2 * this.weights.length);
     this.weights.forEach((weights, k) => {

@@ -38,7 +38,7 @@ export function headOf(bytes: Uint8Array): TableHead {
   const unnamed = first.length > 0 && first.every((name) => name !== '' && isNumber(name));
   const names = unnamed ? first.map((_, k) => `c${k + 1}`) : first;
   const rows = (unnamed ? cells : cells.slice(1)).filter((row) => row.length >= names.length);
-  // The first row may contain units.
+  // The first row may contain units, so it may be non-numeric.
   const numeric = names.map((_, k) => rows.some((row) => Number.isFinite(numberOf(row[k] ?? ''))) && rows.slice(1).every((row) => isNumber(row[k] ?? '')));
   return {
     names,
@@ -66,7 +66,7 @@ function withNames(bytes: Uint8Array, names: readonly string[], separator: RegEx
 const POSITION = ['pos.x', 'pos.y', 'pos.z'];
 const ORIENTATION = ['q.w', 'q.x', 'q.y', 'q.z'];
 
-/** Recipe for films of falls; with tilt where all of them have it. */
+/** Recipe for films of falls: a leaf model if all films have orientations, else a chain of positions. */
 export function recipeOfFalls(captured: readonly Captured[]): Recipe {
   const tilt = captured.every(({ series }) => ORIENTATION.every((name) => series.some((one) => one.name === name)));
   return { kind: tilt ? 'leaf' : 'chain' };

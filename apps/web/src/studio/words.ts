@@ -55,7 +55,7 @@ export type Thing = 'flame' | 'table' | 'fall';
 
 const LEARNED: Readonly<Record<Thing, string>> = { flame: 'It learned your flame', table: 'It learned how this behaves', fall: 'It learned how this falls' };
 
-/** Percent: minimum fit on a table's held-out rows. */
+/** Percent: a table's model is refused if no output's fit on held-out rows is above this. */
 const FOLLOWS = 5;
 
 /** Verdict on a film or another recording. */
@@ -143,7 +143,7 @@ export function metersOf({ report, judged }: Learned, thing: Thing, outputs: rea
     add('It spreads as it did', near('spread'), 0.9);
     return made;
   }
-  // Without wind the flicker has its own phase, and no play follows the film for long.
+  // Without wind, free play has its own phase and does not follow the film: only the next frame is judged.
   const inputs = within(report, 'inputs');
   if (Array.isArray(inputs) && inputs.length > 0) {
     add('The tip, a frame ahead', percent('tip', 'held_out_fit_percent', '1'), 0.5);

@@ -31,7 +31,7 @@ const SECONDS = 2;
 const SHOWN = 30;
 const POINTS = 56;
 
-/** Play of a model in the wind of a stretch. */
+/** Plays a model in the wind of a stretch, relighting it whenever it goes out. */
 function played(model: Model, { wind, rate, before, filmed }: Stretch, seed: number): Clip {
   const bank = model.bank({ polylinePoints: POINTS, seed });
   const flame = bank.spawn();

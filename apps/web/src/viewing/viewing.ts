@@ -50,7 +50,7 @@ class Screen {
     const { context, width, height } = surface;
     const many = clip.outlines.length;
     const at = (seconds * clip.rate) % many;
-    // Both are processed alike: rounded at the base, then painted.
+    // Filmed and played outlines are processed alike: rounded at the base, then painted.
     this.shape.update(clip.outlines[Math.floor(at)] as Float32Array, 1);
     const unit = 0.56 * height;
     const line = this.shape.placed(unit, width / 2, 0.86 * height);
@@ -72,7 +72,7 @@ export class Viewing {
   private since = 0;
   private filmed: Side = 'left';
 
-  /** `of`: name of the played model, for the file. */
+  /** `of`: name of the played model and source of the films, for the saved answers. */
   constructor(
     private readonly pairs: readonly Pair[],
     private readonly of: { model: string; from: string },

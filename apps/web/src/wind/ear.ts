@@ -27,7 +27,7 @@ const SILENT = 3e-4;
 
 const shareOf = (values: readonly number[], share: number): number => [...values].sort((a, b) => a - b)[Math.floor(share * values.length)] ?? 0;
 
-/** Detection by loudness: threshold as a share of the hard blow, minimum seconds, and wind of the hard blow. */
+/** Detection by loudness: threshold as a share of the hard blow's RMS, minimum seconds, and wind of the hard blow. */
 const PLAIN = { share: 0.4, seconds: 0.12, strong: 1.8 };
 
 const HISS =
@@ -56,7 +56,7 @@ const WORDS: Readonly<Record<MicrophoneTrouble, string>> = {
   failed: 'The microphone could not be used.',
 };
 
-/** An overlay has no button, and OBS no address bar. */
+/** Words for the overlay, which has no button, in OBS, which has no address bar. */
 const IN_OVERLAY: Partial<typeof WORDS> = {
   denied: 'The microphone was not allowed. OBS allows it when it is started with --enable-media-stream.',
   none: 'No microphone was found. Plug one in and load this page again.',
@@ -76,8 +76,8 @@ export class Ear {
   private answer: ((heard: boolean) => void) | null = null;
   /** strength of breath, also while it does not reach the scene */
   private heard = 0;
-  /** RMS of sound: smoothed; quiet before a calibration step; during it; of a loud blow on a microphone without low
-   * frequencies (null: has them) */
+  /** RMS of sound: smoothed; quiet level before a calibration step; smoothed values since the step began; `plain`:
+   * of the hard blow on a microphone without low frequencies, else null */
   private smooth = 0;
   private quiet = 0;
   private stepped: number[] = [];
@@ -88,7 +88,7 @@ export class Ear {
   private loudSince = 0;
   private vain = 0;
   private offered = false;
-  /** incremented by opening and closing: an opening that is closed before permission is abandoned */
+  /** number of the latest opening or closing; an opening that was closed before permission is abandoned */
   private turn = 0;
 
   constructor(private readonly app: App) {}
@@ -160,14 +160,14 @@ export class Ear {
     this.app.breath.deafen();
   }
 
-  /** During a guided calibration, sound does not blow. */
+  /** Begins or ends a guided calibration, during which sound makes no wind. */
   tune(on: boolean): void {
     this.tuning = on;
     this.offered = true;
     if (on) this.app.breath.deafen();
   }
 
-  /** Listens for one step of the calibration; returns whether it was heard. False when the microphone is off. */
+  /** Listens for one step of the calibration. Returns whether the sound was heard; false if the microphone is off. */
   listenFor(asked: Asked, seconds: number): Promise<boolean> {
     this.answered(false);
     this.asked = asked;
@@ -178,7 +178,7 @@ export class Ear {
     return new Promise((resolve) => (this.answer = resolve));
   }
 
-  /** Notes that blowing extinguished a candle. */
+  /** Resets the number of unsuccessful blows, as a candle went out. */
   blownOut(): void {
     this.vain = 0;
     this.blowing = false;
@@ -201,7 +201,7 @@ export class Ear {
     if (!this.tuning) this.app.breath.hear(this.wind, this.app.stage.frames);
   }
 
-  /** Whether sound above the quiet level may be taken for the requested blow. */
+  /** Whether sound above the quiet level may be taken for the requested blow. Stores the loudness of a hard blow. */
   private believes(): boolean {
     const loud = shareOf(this.stepped, 0.8);
     const rose = loud > RISES[this.asked] * Math.max(SILENT, Math.min(this.quiet, shareOf(this.stepped, 0.1)));
@@ -212,7 +212,7 @@ export class Ear {
     return rose && this.tuning;
   }
 
-  /** Wind from loudness alone, for microphones without low frequencies: lasting sound above the level recorded by Tune. */
+  /** Wind from loudness alone, for microphones without low frequencies: lasting sound above PLAIN.share of `plain`. */
   private byLoudness({ rms, time }: Wind): number {
     if (this.plain === null) return 0;
     if (rms < PLAIN.share * this.plain) this.plainSince = time;
@@ -236,7 +236,7 @@ export class Ear {
     this.app.notices.say(UNTUNED[why], { words: 'Tune it to my breath', accept: () => this.app.parts?.tuning.open() });
   }
 
-  /** Says once that a steady sound has begun since the room's level was learned. */
+  /** Says that a steady sound has begun since the room's level was learned, each time the rise reaches LOUDER. */
   private watchRoom(rise: number): void {
     if (rise >= LOUDER && !this.louder) this.app.notices.say(`${STEADY}${this.app.overlay ? 'Load this page again' : 'Press Blow twice'}, and I take it for the room.`);
     this.louder = rise >= LOUDER;

@@ -35,7 +35,7 @@ export class Breath {
     this.microphone = 0;
   }
 
-  /** Breath of this frame, positive to the right; 1 is strong. */
+  /** Updates the keys' breath and returns its sum with the microphone's wind, positive to the right; 1 is strong. */
   update(seconds: number, frame: number): number {
     if (performance.now() - this.at > STALE) this.microphone = 0;
     if (this.path.usedAtFrame < this.path.heardAtFrame) this.path.usedAtFrame = frame;

@@ -3,11 +3,11 @@
 
 /** Speed of breath, room units a second. */
 const SPEED = 7;
-/** Half of the path length across the table, where breath enters. */
+/** Distance from the table's middle at which breath enters, room units; its path is twice as long. */
 const EDGE = 2;
-/** Share lost on the way to the far side. */
+/** Share of the wind lost over the whole path across the table. */
 const LOST = 0.3;
-/** Weakening with the squared distance from the breath's axis, per square unit. */
+/** The wind decays by exp(−NARROW z²) with the distance z from its axis, room units. */
 const NARROW = 0.1;
 
 const KEPT = 256;
@@ -19,7 +19,7 @@ const SHELTERED = 0.5;
 
 type Place = Readonly<Record<'x' | 'z', number>>;
 
-/** Share of a wind with unit direction (x, z) that the other candles leave at a place. */
+/** Returns the share of a wind with unit direction (x, z) that passes the other candles and reaches a place. */
 export function shelter(at: Place, others: readonly Place[], x: number, z: number): number {
   let left = 1;
   for (const other of others) {
@@ -43,7 +43,7 @@ export class WindDelay {
     this.times[this.newest] = this.clock;
   }
 
-  /** Wind at a place with coordinate x along a positive wind from the table's middle, and z across it. */
+  /** Returns the wind at a place: x from the table's middle in the direction of a positive wind, z across. */
   at(x: number, z: number): number {
     return this.from(1, x, z) + this.from(-1, x, z);
   }

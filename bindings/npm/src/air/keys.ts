@@ -20,7 +20,7 @@ export class KeyBreath {
     return code in BREATHS;
   }
 
-  /** Advances by a time and returns the signed breath; 1 is strong. */
+  /** Advances by `seconds` and returns the signed breath; 1 is strong. */
   update(seconds: number): number {
     this.clock += seconds;
     let goal = 0;

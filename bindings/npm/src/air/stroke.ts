@@ -14,7 +14,7 @@ const STILL: Readonly<Air> = { right: 0, away: 0 };
 
 const strength = ({ right, away }: Readonly<Air>): number => Math.hypot(right, away);
 
-/** Wind of strokes around one flame; independent of the frame rate up to one frame's length. */
+/** Wind of strokes around one flame. Depends on the frame rate only by a delay of up to one frame. */
 export class Stroke {
   /** wind at the flame */
   readonly wind: Air = { right: 0, away: 0 };
@@ -43,7 +43,7 @@ export class Stroke {
   }
 }
 
-/** Wind of the pointer's path since the last frame on a flame; upwards in the picture is away over the table. */
+/** Wind on a flame from the pointer's path since the last frame. Upward motion blows away from the eye. */
 function blow({ pointer }: Acting, flameX: number, flameY: number, height: number): Air {
   const near = Math.exp((-0.5 * nearest2(pointer, flameX, flameY)) / (height * height));
   const [right, away] = [pointer.speedX, 0.4 * pointer.speedY];

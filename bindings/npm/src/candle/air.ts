@@ -18,7 +18,7 @@ const FINER = 3;
 /** Jacobi iterations of the pressure per step, starting from the last step's pressure. */
 const PRESSINGS = 10;
 const WISH_FONT = '600 96px ui-rounded, "Trebuchet MS", system-ui, sans-serif';
-/** Maximum half height of a line of smoke writing. */
+/** Maximum half height of a line of smoke writing, picture heights. */
 const WISH_LINE = 0.05;
 /** Maximum step in seconds; longer frames take two steps. */
 const LONGEST = 1 / 30;
@@ -27,7 +27,7 @@ const LONGEST = 1 / 30;
 export interface Stirring {
   seconds: number;
   clock: number;
-  /** x, y, width and strength of each source */
+  /** x, y, width and strength of each source of heat, and of each source of smoke; `count` sources each */
   heats: Float32Array;
   wicks: Float32Array;
   count: number;
@@ -106,7 +106,7 @@ export class Air {
     return this.flow.now;
   }
 
-  /** Advances by a time in a picture of that aspect ratio. */
+  /** Advances the air by `stirring.seconds` in a picture of this aspect ratio. */
   update(aspect: number, stirring: Stirring): void {
     this.fit(aspect);
     const steps = stirring.seconds > LONGEST ? 2 : 1;
@@ -132,10 +132,10 @@ export class Air {
     for (const one of [this.flow, this.pressure, this.smoke, this.words, ...Object.values(this.programs)]) one.dispose();
   }
 
-  /** Sets up square cells, about as many for every aspect ratio. */
+  /** Resizes the grids to an aspect ratio, with about CELLS square cells for the air. */
   private fit(aspect: number): void {
     this.aspect = aspect;
-    // Keeps the smoke when only the resolution changes, as the grid then differs by rounding.
+    // Resizing clears the smoke, so the grid stays if the aspect ratio differs by less than 2 %, as by rounding.
     const there = this.flow.now;
     if (Math.abs((aspect * there.height) / there.width - 1) < 0.02) return;
     const height = Math.round(Math.sqrt(CELLS / aspect));

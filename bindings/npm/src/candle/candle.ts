@@ -6,7 +6,7 @@ import type { Stand } from './room.js';
 
 /** Wind at the flame while its base moves at one flame height a second. */
 const MOTION_WIND = 0.3;
-/** Maximum wind of dragging: it bends the flame; only a jerk extinguishes it. */
+/** Maximum wind of dragging, reached at 3.8 flame heights a second. */
 const MAX_MOTION_WIND = 1.15;
 
 /** Seconds for which an extinguished wick smokes. */
@@ -28,15 +28,15 @@ export class Candle {
   ember = 0;
   /** seconds since extinction; Infinity while it burns */
   sinceOut = Infinity;
-  /** wind of the pointer's strokes around it */
+  /** wind of the pointer's strokes around the flame */
   readonly stroke = new Stroke();
   /** signed wind of the last frame from all sources */
   wind = 0;
-  /** seconds for which the hand that lit it shelters it from strokes */
+  /** remaining seconds after lighting in which the pointer's strokes have no effect */
   sheltered = 0;
   /** instance in the lender's bank; null: its own model responds to wind */
   lent: bigint | null = null;
-  /** lean of its tip away from the eye and of its middle towards it, flame units */
+  /** lean of the flame's tip away from the eye, and of its middle towards the eye, flame units */
   tipAway = 0;
   nearer = 0;
   private speed = 0;

@@ -20,12 +20,12 @@ export class FlameShape {
   top = 0;
   tipX = 0;
   tipY = 0;
-  /** centre of its area */
+  /** mean of the outline's points */
   middleX = 0;
   middleY = 0;
   /** light relative to a calm flame */
   light = 0;
-  /** mean width of its body */
+  /** mean width of the flame's body */
   width = 0.25;
   private readonly along = new Float32Array(MAX_POINTS);
 
@@ -48,7 +48,7 @@ export class FlameShape {
     this.light = size > 0 && !this.empty ? Math.pow(burning, 0.7) * (0.3 + 0.7 * size) : 0;
   }
 
-  /** The outline in a picture with y down: x and y alternating, in pixels, with its base at a place. */
+  /** Returns the outline in pixels with y down: x and y alternating, with the flame's origin at (x, y). */
   placed(unit: number, x: number, y: number): Float32Array {
     const line = new Float32Array(2 * this.count);
     for (let k = 0; k < this.count; ++k) line.set([x + unit * (this.points[3 * k] as number), y - unit * (this.points[3 * k + 1] as number)], 2 * k);

@@ -1,4 +1,4 @@
-// Glare in the eye: a chain of pictures of decreasing size, added up on the way back.
+// Glare in the eye: a chain of pictures of decreasing size, added up from the smallest to the largest.
 
 import { Program, type Quad, Target } from '../stage/gl.js';
 import glareFragment from './shaders/glare.frag.js';

@@ -3,7 +3,7 @@
 
 import type { Bank, FlameState, Instance, Model } from '../index.js';
 
-/** Flame size below which the outline does not show its lean. */
+/** Flame size below which the lending outline is too small to show its displacement. */
 const MIN_SIZE = 0.05;
 const SETTLES = 2e9;
 
@@ -23,7 +23,7 @@ export class Lender {
     this.bank.end(still);
   }
 
-  /** A borrowing flame as displaced by this model's wind. `own`: its outline in still air. */
+  /** Returns a borrowing flame's outline with the displacement of a lending instance. `own`: outline in still air. */
   lend(instance: Instance, own: Float32Array, state: Readonly<FlameState>): Float32Array {
     const { moved, rest } = this;
     moved.set(own);

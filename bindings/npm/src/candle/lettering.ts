@@ -38,7 +38,7 @@ const POINTS = 64;
 /** Width / height of a digit. */
 const NARROW = 0.66;
 
-/** Point at a parameter of the smooth line through places. */
+/** Returns the point at a parameter, 0 to 1, of the smooth line through places. */
 function through(places: readonly Place[], at: number): [number, number] {
   const k = Math.min(places.length - 2, Math.floor(at * (places.length - 1)));
   const t = at * (places.length - 1) - k;
@@ -64,14 +64,14 @@ export class Lettering {
     this.words = new Words(gl);
   }
 
-  /** Binds a name's texture to a unit. Returns half width and half height of its plaque in the room; 0 without a name. */
+  /** Binds the name's texture to a unit. Returns the plaque's half width and half height; 0 without a name. */
   name(name: string, unit: number): [number, number] {
     const shape = this.words.write(name, FONT, 99, unit);
     const wide = Math.min(PLAQUE.wide, 0.8 * PLAQUE.high * shape);
     return name === '' ? [0, 0] : [wide, Math.min(PLAQUE.high, (1.4 * wide) / shape)];
   }
 
-  /** Stroke of a digit below its upper end at 0 (its wick), x to the right. */
+  /** Returns a digit's stroke, x, y and 0 per point: the wick, on the upper end, is the origin. */
   figure(digit: string, height: number): Float32Array {
     const key = `${digit} ${height}`;
     const known = this.figures.get(key);

@@ -3,8 +3,8 @@
 import { FlameShape } from './flame_shape.js';
 import { smokeAfter } from './candle.js';
 
-const ERRAND = 0.75; // seconds in which it reaches a wick by itself
-const STRIKE = 0.22; // seconds of the strike before
+const ERRAND = 0.75; // seconds for moving to a wick without a hand; 0.5 s later the match returns
+const STRIKE = 0.22; // seconds of the strike, before the match moves
 const STRUCK = 0.34; // distance of the strike, room units
 const FLARES = 0.32; // decay time of the flare, seconds
 
@@ -20,7 +20,7 @@ export class Match {
   readonly unit = 0.5;
   size = 0;
   burning = false;
-  /** instance of the model while it burns */
+  /** instance of the flame model while the match burns */
   id: bigint | null = null;
   held = false;
   homeX = 0;
@@ -29,16 +29,16 @@ export class Match {
   private goalX = 0;
   private goalY = 0;
   private errand: { left: number } | null = null;
-  /** remaining seconds of the strike; it burns at 0 */
+  /** remaining seconds of the strike; at 0 the match catches fire */
   private striking = 0;
   speedX = 0;
 
-  /** Whether it lies on the table. */
+  /** Whether the match lies on the table. */
   get lying(): boolean {
     return !this.held && this.errand === null && !this.burning;
   }
 
-  /** Sets its resting place, in front of what stands there. */
+  /** Sets the resting place's x and depth, in front of the candles. */
   rest(x: number, z: number): void {
     this.homeX = x;
     this.homeY = z > 2 ? 0.3 : 0.52;
@@ -49,7 +49,7 @@ export class Match {
     }
   }
 
-  /** Whether a press at room coordinates (at its depth) takes it up. */
+  /** Whether a press at these room coordinates, in the match's depth, picks up the match. */
   near(x: number, y: number): boolean {
     const along = (x - this.x) / 0.3;
     return Math.abs(x - this.x - 0.12) < 0.42 && y - this.y < 0.3 && y - this.y > -0.75 && along > -1.4;
@@ -65,7 +65,7 @@ export class Match {
     if (!this.burning && this.striking === 0) this.striking = STRIKE;
   }
 
-  /** Moves to a wick by itself. */
+  /** Sends the match to a wick without a hand. */
   send(x: number, y: number): void {
     this.errand = { left: ERRAND + 0.5 };
     this.strike();
@@ -83,7 +83,7 @@ export class Match {
     this.moveTo(this.homeX, this.homeY);
   }
 
-  /** Whether it should burn: held or moving by itself, and struck. */
+  /** Whether the match should burn: struck, and held or on its way to a wick. */
   get wanted(): boolean {
     return (this.held || this.errand !== null) && this.striking === 0;
   }
@@ -94,7 +94,7 @@ export class Match {
     if (this.flare < 0.01) this.flare = 0;
     this.smoking = Math.max(0.5 * this.flare, this.burning ? 0 : 0.7 * smokeAfter(this.sinceOut + 1.6));
     if (this.striking > 0) {
-      // First quickly along the table, then up to the target.
+      // The strike moves the match along the table; then it moves to its goal.
       this.striking = Math.max(0, this.striking - seconds);
       this.x -= (STRUCK * seconds) / STRIKE;
       this.speedX = 0;

@@ -2,7 +2,7 @@
 
 /** Rotation of the eye for a drag across the whole picture, radians. */
 const ACROSS = Math.PI;
-/** Drag speed above which it is a stroke, picture widths a second. */
+/** Drag speed above which a drag makes wind and does not rotate the eye, picture widths a second. */
 const SWIPE = 1.2;
 const RING = 6;
 
@@ -27,7 +27,7 @@ export class Orbit {
     this.held = null;
   }
 
-  /** Pointer position in a picture of that width, and its speed. Returns whether the eye has moved. */
+  /** Rotates the eye by the drag to x, if its speed is below SWIPE; pixels. Returns whether the eye has moved. */
   drag(x: number, speed: number, width: number): boolean {
     // A fast stroke makes wind and does not rotate.
     if (Math.abs(speed) > SWIPE * width) this.held = null;
@@ -40,7 +40,7 @@ export class Orbit {
     return azimuth !== before;
   }
 
-  /** Position relative to the table's middle as seen by the eye: to its right, and towards it. */
+  /** Converts a position relative to the table's middle to the eye's axes: to the right, and towards the eye. */
   seen(x: number, z: number): readonly [right: number, near: number] {
     const c = Math.cos(this.azimuth);
     const s = Math.sin(this.azimuth);

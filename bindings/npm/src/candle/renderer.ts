@@ -63,7 +63,7 @@ export class CandleRenderer {
   private readonly surface: Target;
   private readonly picture: Target;
   private readonly programs: Record<'candle' | 'flame' | 'develop', Program>;
-  /** programs per setting: an empty table, and a cake once loaded */
+  /** programs per setting: a table without a cake, and with a cake once loaded */
   private readonly rooms: Partial<Record<'table' | 'cake', Room>> = {};
   private readonly warm: () => boolean;
   private readonly lights = new Float32Array(4 * MAX_LIGHTS);
@@ -160,7 +160,7 @@ export class CandleRenderer {
     this.rooms[name] = { surface, light, warm: warming([surface, light]) };
   }
 
-  /** Loads the parts for the time after the first picture. */
+  /** Loads the parts that the first picture does not need. */
   private bring(): void {
     if (this.bringing || this.after !== null || !hasRange(this.gl)) return;
     this.bringing = true;
@@ -210,7 +210,7 @@ export class CandleRenderer {
     if (match.burning) this.addLamp(view, [match], null);
   }
 
-  /** Adds one light for adjacent flames, and for a lone flame its stand, which shades it. */
+  /** Adds one light for adjacent flames. `stand`: that of a lone flame, which casts a shadow; null: none. */
   private addLamp(view: RoomView, flames: readonly { x: number; y: number; z: number; unit: number; shape: FlameShape }[], stand: Stand | null): void {
     const k = this.lamps.length;
     const lamp: Lamp = { x: 0, y: 0, z: 0, light: 0 };
@@ -250,7 +250,7 @@ export class CandleRenderer {
       .setVectors('uSpread', 1, this.spread);
     if (shown.setting.cake !== null) {
       this.sticks.fill(0);
-      // Streaks of more candles would merge.
+      // Shadow streaks of more candles would merge, so they are left out.
       if (shown.candles.length <= MAX_LAMPS) shown.candles.forEach(({ stand }, k) => stand.figure === null && this.sticks.set([stand.x, stand.z, stand.radius, stand.height], 4 * k));
       program.setVectors('uSticks', 4, this.sticks);
     }
@@ -289,7 +289,7 @@ export class CandleRenderer {
     return sum;
   }
 
-  /** Sets up a candle or digit in a box, relative to its upper end. `nearer`: that of the flame, whose own light is left out. */
+  /** Sets up a candle or digit. `box`: bounds from its upper end; `nearer`: its flame's, to leave the own light out. */
   private setWax(program: Program, view: RoomView, { stand, shape, ember }: Candle, nearer: number, box: number[]): Program {
     return this.setBoard(program, view, stand.x, stand.ground + stand.height, stand.z, stand.unit, box)
       .set('uRadius', stand.radius / stand.unit)

@@ -30,7 +30,7 @@ export interface Setting {
   cake: { x: number; radius: number; height: number } | null;
 }
 
-/** Maximum number of candles on a cake, and of lights in the room. */
+/** Maximum number of candles on a cake, and of lights for them; more candles than lights share lights. */
 export const MAX_CANDLES = 100;
 export const MAX_LAMPS = 12;
 /** Height of a digit candle. */
@@ -70,7 +70,7 @@ export function settingFor(candles: number, figures = ''): Setting {
     const stands = [...figures].map((figure, k): Stand => ({ ...on, x: 0.92 * (k - middle), z: 0.5, height: FIGURE_HEIGHT, radius: 0.1, unit: 0.5, wax: hue(k), seed: k + 1, lamp: k, figure }));
     return { cake, stands };
   }
-  // More candles are smaller.
+  // More than MAX_LAMPS candles are smaller.
   const small = candles <= MAX_LAMPS ? 1 : Math.max(0.5, (MAX_LAMPS / candles) ** 0.3);
   const spots = candles <= MAX_LAMPS ? places(candles) : rings(candles);
   const stands = spots.map(
@@ -91,7 +91,7 @@ export function settingFor(candles: number, figures = ''): Setting {
   return { cake, stands: stands.sort((a, b) => a.z - b.z) };
 }
 
-/** Positions of many candles on rings, with equal spacing within and between rings. */
+/** Positions of many candles on 2, 3 or 6 rings; the number on a ring is proportional to its radius. */
 function rings(candles: number): [number, number][] {
   const radii = [1.42, 1.16, 0.9, 0.64, 0.38, 0.12].slice(0, candles <= 30 ? 2 : candles <= 50 ? 3 : 6);
   const around = radii.reduce((sum, radius) => sum + radius, 0);
@@ -146,13 +146,13 @@ export class RoomView {
   horizon = 0;
 
   /**
-   * Fits the setting into a picture of that size. `footer`: share of its height covered by controls below; `clear`: a
+   * Fits the setting into a picture. `footer`: share of the picture's height covered by controls below; `clear`: a
    * cake's candles without the cake; `above`: extra height of digits over sticks.
    */
   frame(width: number, height: number, cake: boolean, footer: number, clear: boolean, above = 0): void {
     Object.assign(this, { width, height, footer, clear });
     const free = height * (1 - footer);
-    // Height from the nearest drawn edge to above the highest flame, width, and height of that edge.
+    // Room units: height and width of the drawn part, and height of the table (y = 0) above its lower edge.
     const [tall, wide, low] = cake ? (clear ? [1.95, 3.4, -0.6] : [4 + above, 5, 0.94]) : [3.6, 2.9, 0.4];
     this.scale = Math.min(free / tall, width / wide);
     this.middle = width / 2;
@@ -178,7 +178,7 @@ export class RoomView {
     return this.eye + (pixel - this.horizon) / (this.nearness(z) * this.scale);
   }
 
-  /** Height / width in the picture of a level circle at that height and depth. */
+  /** Height / width in the picture of a level circle at height y and depth z. */
   flatness(y: number, z: number): number {
     return Math.max(0.02, (this.eye - y) / (this.distance - z));
   }

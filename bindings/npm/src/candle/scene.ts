@@ -34,7 +34,7 @@ export class CandleScene implements Scene {
   readonly answerName = 'tip, sideways';
   private readonly view = new RoomView();
   private readonly match = new Match();
-  /** wind across the table and away from the eye */
+  /** winds to the right and away from the eye, delayed by distance */
   private readonly across = new WindDelay();
   private readonly away = new WindDelay();
   private setting: Setting = settingFor(1);
@@ -96,7 +96,7 @@ export class CandleScene implements Scene {
 
   reading(): Reading {
     const first = this.candles[this.candles.length - 1];
-    // For bodies breath comes from the eye, so the tip leans away from it.
+    // The microphone blows from the eye, so a body's tip leans away from the eye.
     return { wind: first?.wind ?? 0, answer: first?.shape.empty === false ? first.shape.tipX + first.tipAway : 0 };
   }
 
@@ -148,7 +148,7 @@ export class CandleScene implements Scene {
   }
 
   act(): void {
-    // `lit` is that of the last picture, the state is current.
+    // `candle.lit` is as of the last picture; the bank's state is current.
     const out = this.candles.find((candle) => !candle.lit && !this.stateOf(candle).lit);
     if (out !== undefined) this.match.send(...this.wickOf(out));
   }
@@ -211,7 +211,7 @@ export class CandleScene implements Scene {
     this.match.rest(Math.min(edge - 0.55, cake ? 2.3 : 1.35), z);
   }
 
-  /** Sets the table up again. */
+  /** Replaces all candles by new ones, as the settings say. */
   private seat(): void {
     for (const { id, lent } of this.candles) {
       this.bank.end(id);
@@ -230,7 +230,7 @@ export class CandleScene implements Scene {
     if (bank.inputs === 2) bank.setInstanceInputs(id, this.orbit.wind(right, away));
   }
 
-  /** Computes positions as seen by the eye, far to near; digits face the eye. */
+  /** Rotates a cake's candles to the eye's view, except digits, which face the eye; sorts all from far to near. */
   private turn(): void {
     const { cake } = this.setting;
     for (const candle of this.candles) {
@@ -321,7 +321,7 @@ export class CandleScene implements Scene {
       const [x, y] = this.wickOf(candle);
       if (Math.hypot(x - match.x, y - match.y) < 0.42 * Math.max(0.5, candle.stand.unit)) {
         this.relight(candle);
-        // By itself it goes on to the next wick.
+        // A match that no hand holds goes on to the next wick.
         if (!match.held) this.act();
       }
     }
@@ -347,7 +347,7 @@ export class CandleScene implements Scene {
     candle.sheltered = 0.6;
   }
 
-  /** Position of the match that lights a wick: its flame at the wick, at the match's depth. */
+  /** Returns the match's position, at its own depth, with its flame over the wick in the picture. */
   private wickOf(candle: Candle): [number, number] {
     const { view, match } = this;
     const { stand } = candle;

@@ -1,4 +1,4 @@
-// Text as a texture for shaders: white on black, in lines of about equal width.
+// Text as a texture for shaders: white on transparent, in lines of about equal width.
 
 /** Height of a line, pixels. */
 const LINE = 128;
@@ -30,7 +30,7 @@ export class Words {
     const { gl } = this;
     gl.activeTexture(gl.TEXTURE0 + unit);
     gl.bindTexture(gl.TEXTURE_2D, this.texture);
-    // The last text stays while no new one is set.
+    // An empty text keeps the last texture.
     if (text === this.written || (text === '' && this.written !== null)) return this.shape;
     this.written = text;
     const lines = brokenLines(text, about);

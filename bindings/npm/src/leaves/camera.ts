@@ -41,7 +41,7 @@ export class LeafCamera {
     this.matrix.set([-fx * ex, -fy * up, -depth * ahead - (2 * FAR * NEAR) / (FAR - NEAR), -ahead], 12);
   }
 
-  /** Half width of the view at depth y, at ground level. */
+  /** Half width of the view at depth y, at the eye's height. */
   halfWidth(y: number): number {
     return (y - EYE[1]) * PITCH[1] * HALF_VIEW * this.aspect;
   }

@@ -5,37 +5,37 @@ import type { Bank, Instance } from '../index.js';
 import type { LeafCamera } from './camera.js';
 import { MAX_LEAVES } from './limits.js';
 
-/** Range of depths and maximum height of leaves, metres. */
+/** Range of depths of leaves, and height near which they start, metres. */
 const NEAREST = -1.35;
 const FARTHEST = 3.4;
 const TOP = 2.75;
 /** Height below which a leaf lies on the ground. */
 const LYING = 0.035;
-/** Heaps: cell size of the ground in metres; height added per leaf, and maximum height per cell. */
+/** Heaps: size of a ground cell, metres; half the columns; height added per leaf, metres; maximum leaves per cell. */
 const CELL = 0.16;
 const HALF_COLUMNS = 40;
 const LAYER = 0.0045;
 const MAX_LAYERS = 30;
 /** Additional rest in the middle of a heap, as a multiple of a leaf's usual rest. */
 const LONGER = 6;
-/** Maximum number of leaves placed anew per frame, as each search covers all segments. */
+/** Maximum number of leaves placed anew per frame, as each placing searches all segments. */
 const PLACINGS = 6;
-/** Milliseconds per frame for starting further leaves. */
+/** Milliseconds per frame for starting missing leaves beyond PLACINGS. */
 const FILLING = 1.5;
 const FADES = 0.7;
-/** Wind that lifts a leaf off the ground, metres a second, and duration of the lift. */
+/** Minimum wind that can lift a leaf off the ground, metres a second, and mean duration of the lift. */
 const LIFTING = 0.9;
 const LIFT_SECONDS = 0.45;
 /** Squared reach of the pointer's gust, metres². */
 const REACH2 = 1.4;
-/** Orientation where a model has none. */
+/** Orientation of leaves whose model outputs only positions. */
 const LEVEL = [1, 0, 0, 0] as const;
 /** Numbers per instance on the graphics card: x, y, z, opacity; quaternion w, x, y, z. */
 export const LEAF_NUMBERS = 8;
 
-/** A local gust: an upright column of moving air. */
+/** A gust in the scene: local air that moves at a position (x, z) in all depths, wind everywhere, and a kick. */
 export interface Gust {
-  /** position and velocity of that air, metres and metres a second */
+  /** position and velocity of the local air, metres and metres a second */
   x: number;
   z: number;
   speedX: number;
@@ -70,7 +70,7 @@ export class LeafFall {
   private random: number;
   private clock = 0;
   private wanted = 0;
-  /** speed of the gust's own air */
+  /** speed of the gust's local air */
   private stroke = 0;
 
   /** `bank`: empty, with room for MAX_LEAVES. */
@@ -84,7 +84,7 @@ export class LeafFall {
     bank.setGround(0);
   }
 
-  /** Sets the wanted number of leaves; they appear or disappear over the next frames. */
+  /** Sets the wanted number of leaves: ends surplus leaves at once, and starts missing ones in the next updates. */
   want(count: number): void {
     this.wanted = Math.min(count, MAX_LEAVES);
     while (this.ids.length > this.wanted) {
@@ -94,7 +94,7 @@ export class LeafFall {
     this.count = Math.min(this.count, this.ids.length);
   }
 
-  /** Advances by a time. */
+  /** Starts missing leaves, sets the winds, and advances the bank by `seconds`. */
   update(seconds: number, gust: Gust): void {
     this.clock += seconds;
     let placings = PLACINGS;
@@ -175,7 +175,7 @@ export class LeafFall {
     bank.setInputs(winds);
   }
 
-  /** Reads positions, and restarts leaves that have lain long enough. */
+  /** Reads positions, restarts leaves that have lain long enough, and lifts leaves that a gust or kick reaches. */
   private gather(seconds: number, gust: Gust, placings: number): void {
     const outputs = this.bank.outputsView();
     const { shown, seen } = this;

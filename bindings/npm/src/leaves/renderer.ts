@@ -73,7 +73,7 @@ export class LeafRenderer {
     gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, count);
     gl.disable(gl.BLEND);
     gl.enable(gl.DEPTH_TEST);
-    // Outlines are cut out of sheets: alpha to coverage antialiases their edges.
+    // The fragment shader cuts outlines out of sheets; alpha to coverage antialiases their edges.
     gl.enable(gl.SAMPLE_ALPHA_TO_COVERAGE);
     this.programs.leaf.use().setMatrix('uMatrix', camera.matrix).set('uHalfSize', ...size).set('uEye', ...camera.eye);
     const { shape } = this.leaves.find(({ most }) => count <= most) as { shape: Shape };
@@ -120,7 +120,7 @@ export class LeafRenderer {
     this.quad.draw();
   }
 
-  /** Vertices with attributes of these sizes, drawn once for each leaf. */
+  /** Returns a shape drawn once per leaf: `sizes` of its attributes; `order`: indices, null for a strip. */
   private shape(vertices: Float32Array, sizes: readonly number[], order: Uint16Array | null): Shape {
     const { gl } = this;
     const made = verticesOf(gl, vertices, sizes);

@@ -73,7 +73,7 @@ export class LeavesScene implements Scene {
 
   release(x: number, y: number, tap: boolean): void {
     if (!tap) return;
-    // Position on the ground, also below a tap in the air.
+    // A tap in the air kicks the leaves on the ground below.
     const [near] = this.camera.at(x, y, STIRRED_DEPTH);
     Object.assign(this.gust, { kickX: near, kickY: this.groundDepth(y), kickReach: 0.9 });
     this.kickLeft = KICKS;

@@ -24,7 +24,7 @@ p { position: absolute; inset: auto 6% 62px; margin: 0; text-align: center; font
 /** CSS pixels covered by the button at the lower edge. */
 const BUTTON = 56;
 
-/** Without a document (on a server that renders pages) the module can still be imported. */
+/** An empty class where there is no document, so that servers that render pages can import this file. */
 const Base = (globalThis.HTMLElement ?? class {}) as typeof HTMLElement;
 
 /** Registers an element once, where custom elements exist. */
@@ -68,7 +68,7 @@ export abstract class SceneElement extends Base {
   private stage: Stage | null = null;
   private model: Model | null = null;
   private microphone: Microphone | null = null;
-  /** incremented by loads and by opening the microphone: outdated ones are dropped */
+  /** numbers of the latest load, and of the latest opening of the microphone; results of earlier ones are dropped */
   private turn = 0;
   private asked = 0;
   private seen: IntersectionObserver | null = null;
@@ -124,7 +124,7 @@ export abstract class SceneElement extends Base {
     this.seen?.disconnect();
     this.stage?.loop.stop();
     this.closeMicrophone();
-    // Browsers allow about sixteen contexts. An element that only moves within the page is connected again by then.
+    // Browsers allow about sixteen contexts. An element moved within the page is connected again before the timeout.
     setTimeout(() => {
       if (!this.isConnected) this.stage?.giveBack();
     });
@@ -177,7 +177,7 @@ export abstract class SceneElement extends Base {
     }
   }
 
-  /** Updates the accessible description: extinguished, or burning. */
+  /** Updates the accessible description from the scene. */
   protected relabel(): void {
     if (this.scene !== null) this.canvas.setAttribute('aria-label', this.scene.describe());
   }
@@ -206,7 +206,7 @@ export abstract class SceneElement extends Base {
   }
 
   private async toggleMicrophone(): Promise<void> {
-    if (this.microphone?.asleep === true) return; // the click has resumed it
+    if (this.microphone?.asleep === true) return; // the click has resumed the sound
     if (this.microphone !== null) return this.closeMicrophone();
     const asked = ++this.asked;
     this.say('');

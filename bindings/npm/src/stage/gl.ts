@@ -19,7 +19,7 @@ export class Program {
     gl.linkProgram(this.program);
   }
 
-  /** Whether compilation is complete and its result was read. Blocks if the browser cannot report that it is complete. */
+  /** Whether compilation is complete and its result was read. Blocks if the browser cannot report completion. */
   warm(): boolean {
     const told = this.gl.getExtension('KHR_parallel_shader_compile');
     if (told === null || this.gl.getProgramParameter(this.program, told.COMPLETION_STATUS_KHR) !== false) this.use();
@@ -48,7 +48,7 @@ export class Program {
     return this;
   }
 
-  /** Sets an array of vectors of that size. */
+  /** Sets an array of vectors of `size` numbers each. */
   setVectors(name: string, size: 1 | 3 | 4, values: Float32Array): this {
     this.gl[`uniform${size}fv`](this.at(name), values);
     return this;
@@ -90,7 +90,7 @@ function begun(gl: WebGL2RenderingContext, kind: number, source: string): WebGLS
   return shader;
 }
 
-/** Returns a function that checks one program per call, as all at once would delay a frame; true once all are usable. */
+/** Returns a function that checks one program per call, as all would delay a frame; true once all are usable. */
 export const warming = (programs: Program[]) => (): boolean => {
   const [next] = programs;
   if (next?.warm() === true) programs.shift();
@@ -102,7 +102,7 @@ export interface Vertices {
   buffer: WebGLBuffer;
 }
 
-/** Vertices of interleaved numbers: attributes 0, 1, … of these sizes. Their array stays bound. */
+/** Uploads interleaved numbers as attributes 0, 1, … of these sizes. The vertex array stays bound. */
 export function verticesOf(gl: WebGL2RenderingContext, numbers: Float32Array, sizes: readonly number[], usage: number = gl.STATIC_DRAW): Vertices {
   const array = gl.createVertexArray() as WebGLVertexArrayObject;
   const buffer = gl.createBuffer() as WebGLBuffer;
@@ -122,7 +122,7 @@ export function verticesOf(gl: WebGL2RenderingContext, numbers: Float32Array, si
 /** A strip of two triangles: a square from (−1, −1) to (1, 1). */
 export const SQUARE = new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]);
 
-/** That square, at attribute 0. */
+/** Draws SQUARE, with its corners as attribute 0. */
 export class Quad {
   private readonly vertices: Vertices;
 

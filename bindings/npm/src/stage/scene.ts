@@ -71,7 +71,7 @@ export interface Scene {
   attach(gl: WebGL2RenderingContext): void;
   /** Draws to the canvas of the attached context. Returns false, drawing nothing, while parts are loading. */
   draw(width: number, height: number, look: SceneLook): boolean;
-  /** What a press at a place would take hold of, for the shape of the cursor; missing in scenes without. */
+  /** 'grab' if a press at a place would take hold of something; absent in scenes without things to grab. */
   hover?(x: number, y: number): 'none' | 'grab';
   press?(x: number, y: number): void;
   /** `tap`: the pointer did not move in between */

@@ -9,13 +9,13 @@ const LONGEST_FRAME = 0.1;
 /** Maximum number of drawn pixels: more are invisible and heat a phone. */
 const MAX_PIXELS = 2.6e6;
 const MIN_DETAIL = 0.5;
-/** Resolution below which expensive effects are left out. */
+/** Share of the full resolution below which expensive effects are left out. */
 const PLAIN = 0.6;
-/** Seconds per frame that count as smooth; slower pictures are drawn at lower resolution. */
+/** Maximum mean seconds per frame that count as smooth; above it the resolution is lowered. */
 const SMOOTH = 1 / 42;
 /** Number of frames between checks of smoothness. */
 const LOOK_EVERY = 45;
-/** At low frame rates: seconds and frames before a check. */
+/** At low frame rates a check comes earlier: after this many seconds, and at least this many frames. */
 const LOOK_SECONDS = 1.2;
 const LOOK_FRAMES = 5;
 const FAR_TOO_SLOW = 1 / 16;
@@ -27,10 +27,10 @@ export type FrameCost = Record<'update' | 'draw', number>;
 export interface StageEvents {
   /** signed breath of this frame, from microphone and keys */
   breath(seconds: number): number;
-  /** that breath as a vector on the table; breath() is called first in every frame */
+  /** breath of this frame as a vector on the table; called after breath() */
   air(): Air;
   touched(): void;
-  /** the context was lost, or restored */
+  /** the WebGL context is missing, was lost, or was restored */
   context(state: 'absent' | 'lost' | 'back'): void;
   framed(cost: FrameCost, seconds: number): unknown;
 }
@@ -45,7 +45,7 @@ export class Stage {
   paused = false;
   /** speed of time: 1, or less for users who prefer reduced motion */
   pace = 1;
-  /** fixed drawn pixels per screen pixel; 0: as many as stay smooth */
+  /** fixed number of drawn pixels per CSS pixel; 0: as many as stay smooth */
   detail = 0;
   private footer = 0;
   private readonly gl: WebGL2RenderingContext | null;
@@ -65,7 +65,7 @@ export class Stage {
   constructor(
     readonly canvas: HTMLCanvasElement,
     private readonly events: StageEvents,
-    /** whether only the burning things are drawn, on a transparent canvas */
+    /** whether only candles or leaves are drawn, without a room, on a transparent canvas */
     private readonly clear: boolean,
   ) {
     this.pointer = new PointerReader(canvas, () => this.scene, () => events.touched());
@@ -75,7 +75,7 @@ export class Stage {
     if (this.gl === null) events.context('absent');
   }
 
-  /** Shows a scene; the one before is disposed of. */
+  /** Shows a scene and disposes of the previous one. */
   show(scene: Scene): void {
     this.scene?.dispose();
     this.scene = scene;
@@ -136,7 +136,7 @@ export class Stage {
       this.resize();
       const { fade, clear } = this;
       const drawn = this.scene.draw(this.canvas.width, this.canvas.height, { fade, footer: this.footer, clear, plain: this.detail === 0 && this.adapted < PLAIN });
-      // It fades in from its first picture.
+      // A scene fades in from its first picture.
       if (!drawn) this.fade = 0;
       this.shown = drawn;
     }

@@ -24,7 +24,7 @@ export function offer({ load, openMicrophone }, worker) {
       return hashOfLife(wisp, new Uint8Array(await (await fetch(model)).arrayBuffer()), frames);
     },
 
-    /** The same in a worker. */
+    /** Computes the hash of `life()` in a worker. */
     lifeInWorker(model, frames) {
       return new Promise((resolve, reject) => {
         worker.onmessage = (event) => resolve(event.data);

@@ -3,8 +3,8 @@
 // The clock is performance.now(). Frames come from the camera's track where supported (MediaStreamTrackProcessor), with
 // the camera clock's time; else from the displayed picture, with the capture time where the browser reports it
 // (captureTime). Sound blocks have the audio time of their first sample. A clock's offset from performance.now() is the
-// minimum difference between a time stamp and its arrival, as arrivals are late, never early. It is estimated during
-// preview and constant during filming. The remaining delay of tens of milliseconds is estimated in learning.
+// minimum difference between a time stamp and its arrival, as arrivals are late, never early. The offset is estimated
+// during preview and constant during filming. The remaining delay of tens of milliseconds is estimated in learning.
 
 import type { LiveCapture, Region } from '@wisp/studio';
 import { KEPT_HEIGHT } from '../reel.js';
@@ -12,11 +12,11 @@ import { KEPT_HEIGHT } from '../reel.js';
 /** Reason for a missing camera, as a sentence for people. */
 export class CameraTrouble extends Error {}
 
-/** Maximum number of frames waiting for analysis; above it the machine is too slow to use all frames. */
+/** Maximum number of frames waiting for analysis; on slow machines further frames are dropped. */
 const MAX_WAITING = 6;
 /** Milliseconds without a picture after which a camera counts as asleep. */
 const ASLEEP = 1500;
-/** Kept pictures per second. */
+/** Pictures per second kept for replay. */
 export const KEPT_RATE = 12;
 
 const VIDEO: MediaTrackConstraints = {
@@ -58,7 +58,7 @@ async function ask(hears: boolean): Promise<{ stream: MediaStream; silent: strin
     return { stream: await devices.getUserMedia(hears ? { video: VIDEO, audio: AUDIO } : { video: VIDEO }), silent: '' };
   } catch (error) {
     const name = error instanceof DOMException ? error.name : '';
-    // The browser does not say which of the two was refused, so the camera alone is requested.
+    // Browsers do not say whether camera or microphone was refused, so the camera alone is requested.
     if (hears && name in TROUBLE) {
       const stream = await devices.getUserMedia({ video: VIDEO }).catch(() => null);
       const why = name === 'NotAllowedError' ? 'The microphone was not allowed' : 'There is no microphone';
@@ -73,7 +73,7 @@ interface CameraEvents {
   lost(): void;
   /** the microphone was disconnected; filming continues without it */
   deaf(): void;
-  /** loudness, root mean square of full scale */
+  /** RMS of a block of sound, as a share of full scale */
   loud(level: number): void;
 }
 
@@ -84,7 +84,7 @@ export class Camera {
   private offset = Infinity;
   private live: LiveCapture | null = null;
   private every = 1;
-  /** whether sound is passed on too */
+  /** whether filming, not preview: sound is passed on, and the clocks' offsets are constant */
   private heeds = false;
   private ended = false;
   /** arrival of the last frame, as performance.now() */
@@ -124,7 +124,7 @@ export class Camera {
     if (this.context !== null && this.context.state !== 'running' && this.context.state !== 'closed') this.context.resume().catch(() => undefined);
   }
 
-  /** Locks exposure, colours and focus. Says so where this camera or browser cannot lock the exposure. */
+  /** Locks exposure, colours and focus. Returns a warning if the exposure cannot be locked, else ''. */
   async lock(): Promise<string> {
     const abilities = this.abilities();
     const kept: Record<string, string> = {};
@@ -144,7 +144,7 @@ export class Camera {
     if (next < now) await this.picture.applyConstraints({ advanced: [{ exposureCompensation: next } as MediaTrackConstraintSet] });
   }
 
-  /** Receives frames from the camera, or from the video element that shows it; once, until the camera is closed. */
+  /** Starts to receive frames, from the camera or from the video element that shows it. Call once; close() ends it. */
   watch(video: HTMLVideoElement): void {
     if (Processor === undefined) this.watchPicture(video);
     else void this.watchTrack(new Processor({ track: this.picture, maxBufferSize: MAX_WAITING }).readable.getReader());
@@ -180,7 +180,7 @@ export class Camera {
     this.next(video, frame);
   }
 
-  /** Passes frames and sound from now on to a capture; null: to none. `every`: one frame in this many. */
+  /** Passes one frame in `every` to a capture from now on, and if every frame, the sound; null: to none. */
   feed(live: LiveCapture | null, every = 1): void {
     this.live = live;
     this.every = every;
@@ -195,7 +195,7 @@ export class Camera {
   }
 
   private abilities(): Abilities {
-    // Firefox does not support it.
+    // Some browsers have no getCapabilities().
     return (this.picture.getCapabilities as (() => Abilities) | undefined)?.call(this.picture) ?? {};
   }
 

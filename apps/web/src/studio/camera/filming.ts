@@ -149,7 +149,7 @@ export class Filming {
   private async begin(): Promise<void> {
     this.state = 'filming';
     const said = await this.camera.lock();
-    // Falling objects are detected by position, not by brightness, and the words would cover them.
+    // No warning about exposure for falls: only their positions count, and the words would cover them.
     if (said !== '' && !this.falls) this.room.say(said);
     if (this.state !== 'filming') return;
     this.live?.cancel();
@@ -191,7 +191,7 @@ export class Filming {
   /** Shows the next instruction, and ends filming after the last. */
   private advise(): void {
     const seconds = (performance.now() - this.began) / 1000;
-    // The end of the capture reports the reason.
+    // finish() reports why the capture has ended.
     if (this.live?.alive === false) return this.finish('');
     const { act, words, share } = this.guide.at(seconds, this.seen?.state ?? null, this.count.falls);
     this.ring.style.strokeDasharray = `${Math.round(100 * share)} 100`;
@@ -259,7 +259,7 @@ export class Filming {
   }
 
   private showLevel(level: number): void {
-    // In decibels, from a quiet room to a strong breath.
+    // 0 at −66 dB (a quiet room), 1 at −6 dB (a strong breath).
     const share = Math.max(0, Math.min(1, (20 * Math.log10(level + 1e-6) + 66) / 60));
     this.loud = share;
     this.level.style.transform = `scaleX(${share.toFixed(3)})`;

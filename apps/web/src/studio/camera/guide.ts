@@ -33,8 +33,8 @@ export class Guide {
   }
 
   /**
-   * Action at a number of seconds after the start, and share of the whole filming, 0 to 1. `falls`: number of falls seen
-   * so far.
+   * Returns the action at a number of seconds after the start, and the finished share of the filming, 0 to 1. `falls`:
+   * number of falls seen so far.
    */
   at(seconds: number, state: Seen['state'] | null, falls: number): { act: Act; words: string; share: number } {
     const passed = seconds - this.last;
@@ -50,7 +50,7 @@ export class Guide {
     return { act: done ? 'done' : act, words: this.wordsOf(act, seconds - begun, falls), share: Math.min(1, seconds / end) };
   }
 
-  /** Words for an action since some seconds. */
+  /** Returns the words for an action that began some seconds ago. */
   private wordsOf(act: Act, seconds: number, falls: number): string {
     if (act === 'drop') return wordsOfFalls(falls);
     if (act === 'out') return 'Now blow it out!';
@@ -67,11 +67,11 @@ function wordsOfFalls(falls: number): string {
   return `${falls === 1 ? '1 fall' : `${falls} falls`}. ${falls < ENOUGH_FALLS ? 'And again' : 'Enough, or a few more'}`;
 }
 
-/** Minimum descent as a share of the picture's height, and seconds of absence after it, of a fall. */
+/** A fall: minimum descent as a share of the picture's height, and seconds without motion that end it. */
 const FALLEN = 0.35;
 const LANDED = 0.25;
 
-/** Counts falls during filming; learning detects them anew at the end. */
+/** Counts falls during filming, for display; the capture detects them again at the end. */
 export class FallCount {
   falls = 0;
   private from: number | null = null;
@@ -93,7 +93,7 @@ export class FallCount {
   }
 }
 
-/** Share of the picture above which motion is the camera's. */
+/** Share of the picture above which a moving region means that the camera moves. */
 const SHAKEN = 0.4;
 
 /** Problem of a picture in which something should fall; '' if none. */
@@ -101,7 +101,7 @@ export function hintOfFalls({ moving, width, height }: Seen): string {
   return moving !== null && moving.width * moving.height > SHAKEN * width * height ? 'Almost all of the picture moves. Let the camera lie still, before a plain wall.' : '';
 }
 
-/** Shares of the picture: minimum distance to its border, and minimum height; share of the flame that may be saturated. */
+/** Shares of the picture: minimum distance to its border, minimum height; maximum saturated share of the flame. */
 const BORDER = 0.015;
 const SMALL = 0.12;
 const WHITE = 0.5;

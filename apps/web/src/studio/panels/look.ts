@@ -12,7 +12,7 @@ const COLOURS: Readonly<Record<string, string>> = { luma: 'all colours', red: 'r
 
 type Fact = readonly [string, string];
 
-/** Decisions made so far. */
+/** Returns names and values of what is found so far in a film. */
 export function partOfSeen({ threshold, channel, flames, frame, state, moving }: Seen, falls: boolean): Fact[] {
   if (falls) return [['Picture', frame.toLocaleString('en')], ['Moves', moving === null ? 'nothing' : 'something']];
   const facts: Fact[] = [['Picture', frame.toLocaleString('en')], ['Flame', state === 'waiting' ? 'not found yet' : state === 'gone' ? 'not in this picture' : 'followed']];

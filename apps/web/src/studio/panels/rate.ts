@@ -7,14 +7,13 @@ import { button, panelOf } from './verdict.js';
 const USUAL = 30;
 const MOST = 1000;
 
-/** A field for a rate per second. */
+/** Creates a field for a positive number, with its label. */
 export function rateField(id: string, words: string, value: number | ''): { input: HTMLInputElement; label: HTMLElement } {
   const input = element('input', { type: 'number', min: '0.001', max: '1000000', step: 'any', value, id, inputmode: 'decimal' });
   return { input, label: element('label', { class: 'rate', for: id }, words, input) };
 }
 
-/** A field for the height of the wall in the picture, since positions are in metres and neither films nor
- * cameras have a scale. */
+/** A field for the height of the wall in the picture, as positions are in metres and films have no scale. */
 export function wallField(now: number, chosen: (metres: number) => void): HTMLElement {
   const { input, label } = rateField('wall-height', 'Metres of wall that the picture shows, top to bottom', now);
   input.addEventListener('change', () => {

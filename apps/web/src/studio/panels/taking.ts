@@ -16,10 +16,10 @@ async function copy(text: string): Promise<string> {
 
 export type Moving = 'film' | 'gif';
 
-/** Files for other tools. */
+/** Format of a file for other tools. */
 export type Format = ExportSettings['format'];
 
-/** An identifier valid in C. */
+/** Converts a name to an identifier valid in C. */
 export const nameInC = (name: string): string => name.normalize('NFKD').replace(/\W+/g, '_').replace(/^(?=\d)|^_+/, 'wisp_');
 
 export function takingOf(session: Session, { model }: Learned, room: Room): HTMLElement {

@@ -13,7 +13,7 @@ export class Working {
   private readonly control = new AbortController();
   private shown = '';
 
-  /** `announce`: message for screen readers only */
+  /** `announce`: reads a message to screen readers */
   constructor(title: string, words: string, private readonly announce: (words: string) => void, private readonly thing: Thing | 'either' = 'flame') {
     this.panel = element(
       'div',
@@ -40,7 +40,7 @@ export class Working {
     this.control.abort();
   }
 
-  /** Shows a decision by its name. */
+  /** Shows names and values of what is found so far. */
   found(facts: readonly (readonly [string, string])[]): void {
     const text = facts.map(([name, value]) => `${name}: ${value}`).join();
     if (text === this.shown) return;

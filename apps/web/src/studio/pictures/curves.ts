@@ -11,7 +11,7 @@ const MAX_PLOTS = 6;
 
 const short = (value: number): string => (value === 0 ? '0' : String(Number(value.toPrecision(Math.abs(value) < 1e-3 ? 2 : 3))).replace('-', '−'));
 
-/** Curves to plot, in this order, by prefix of their ids; others are not plotted. */
+/** Curves to plot, in this order, by prefix of their ids, with the plot's title; others are not plotted. */
 const FAMILIES: readonly (readonly [RegExp, string])[] = [
   [/^column/, ''],
   [/^fall\./, 'Recorded'],
@@ -54,7 +54,7 @@ const nameOf = ({ id, label }: Pick<Curve, 'id' | 'label'>): string => (id.start
 
 const isPlace = ({ id }: Curve): boolean => /^(poles|zeros)/.test(id);
 
-/** Whether a curve is one of many similar ones, which need no names. */
+/** Whether a curve is a recorded or played fall, which needs no name in the legend. */
 const isFall = ({ id }: Curve): boolean => /^(fall|played)\./.test(id);
 
 /** Whether a curve is an interval's edge, drawn beside its main curve. */
@@ -87,7 +87,7 @@ export function linesOfFalls(captured: Captured, metres: number, { width, height
   return waysOf(captured).map(([x, z]) => Float32Array.from({ length: 2 * x.length }, (_, k) => (k % 2 === 0 ? width / 2 + scale * (x[k / 2] as number) : height - scale * (z[(k - 1) / 2] as number))));
 }
 
-/** Falls of a model, equal in number and duration to the shown recorded ones. */
+/** Plays falls of a model, equal in number and duration to the recorded ones that are shown. */
 export function fallsPlayed(wisp: Library, bytes: Uint8Array, { episodes, rows }: Captured): Curve[] {
   const shown = episodes.slice(0, MAX_FALLS);
   const model = wisp.model(bytes);
@@ -110,7 +110,7 @@ export function fallsPlayed(wisp: Library, bytes: Uint8Array, { episodes, rows }
   return ways.map(([across, up], k) => wayOf(`played.${k}`, across, up));
 }
 
-/** Columns of a table as curves over time, reduced to as many points as are visible. */
+/** Columns of a table as curves over time, reduced to at most 2000 points each. */
 function curvesOf({ series, rate, rows }: Captured): Curve[] {
   const every = Math.max(1, Math.ceil(rows / 2000));
   return series.map(({ name, unit, samples, role }) => {
@@ -132,7 +132,7 @@ export function recordedOf(captured: Captured): Curve[] {
   return falls.length > 0 ? falls : curvesOf(captured);
 }
 
-/** `all`: all plots, for a common scale. */
+/** `all`: curves of all plots, as plots of falls have a common scale. */
 function plotOf(curves: readonly Curve[], title: string, all: readonly (readonly Curve[])[]): HTMLElement {
   // Recorded and played falls have a common scale.
   const scale = curves.some(isFall) ? all.filter((other) => other.some(isFall)).flat() : curves;

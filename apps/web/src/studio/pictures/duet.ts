@@ -10,10 +10,10 @@ import { Play } from '../play.js';
 import { drawKept, fitPart, placed, shaded, stroke, surfaceOf, type Fit } from './surface.js';
 import type { Outlines } from '../outlines.js';
 
-/** Seconds; a longer step counts as a jump. */
+/** Maximum seconds by which a frame advances the clock. */
 const LONGEST = 0.1;
 
-/** Region of the film shown in both: all places of the flame, with a margin. */
+/** Returns the region of the film that both pictures show: all positions of the flame, with a margin. */
 export function partOf({ bounds, base, height }: Outlines): Region {
   const left = Math.min(bounds.x, base.x - 0.45 * height);
   const right = Math.max(bounds.x + bounds.width, base.x + 0.45 * height);
@@ -68,7 +68,7 @@ export class Duet {
 
   private openFilm(address: string): void {
     this.video.muted = true;
-    // A film that only the engine can decode is shown by its kept pictures.
+    // A film that the video element cannot play is shown by its kept pictures.
     this.video.addEventListener('loadeddata', () => (this.filmed = true));
     this.video.addEventListener('error', () => (this.filmed = false));
     this.video.src = address;
@@ -79,7 +79,7 @@ export class Duet {
     if (!('requestVideoFrameCallback' in this.video)) return;
     this.video.requestVideoFrameCallback((_, { mediaTime }) => {
       this.shown = mediaTime;
-      // Picture and outline must be of one moment, as the next frame may already be another.
+      // Draws picture and outline together, as the video may show another frame at the next refresh.
       this.drawFilm(this.rowAt(mediaTime));
       this.watchFilm();
     });
@@ -90,7 +90,7 @@ export class Duet {
     const { rows, rate } = this.outlines;
     if (this.filmed) {
       if (this.video.paused) this.video.play().catch(() => (this.filmed = false));
-      // The displayed time, not the requested one, as slow machines show pictures late.
+      // Follows the displayed frame where its time is known: on slow machines it lags behind currentTime.
       this.clock = this.shown ?? this.video.currentTime;
     } else {
       this.clock = (this.clock + seconds) % (rows / rate);

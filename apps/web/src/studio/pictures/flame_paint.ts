@@ -2,7 +2,7 @@
 
 import { shaded, trace, WHOLE, type Stops } from './surface.js';
 
-/** Radius of its glow, in heights. */
+/** Radius of the glow, flame heights. */
 const REACH = 1.5;
 /** Colours of the glow from the middle outwards, and of body and core from foot to top. */
 const GLOW: Stops = [[0, 'rgb(255 150 60 / 34%)'], [0.35, 'rgb(255 120 40 / 12%)'], [1, 'rgb(255 110 30 / 0%)']];

@@ -8,7 +8,7 @@ import { stroke, surfaceOf, WHOLE } from './surface.js';
 
 const POINTS = 64;
 const NANOSECONDS = 1e9;
-/** Height of the flame as a share of the place. */
+/** Height of the flame as a share of the canvas's. */
 const HEIGHT = 0.5;
 
 export class Invitation {

@@ -43,7 +43,7 @@ export function contain(picture: { width: number; height: number }, width: numbe
   return { scale, x: (width - scale * picture.width) / 2, y: (height - scale * picture.height) / 2 };
 }
 
-/** Placement of a film of which a part fills a cell. */
+/** Placement of a film with which a part of it fits into a cell, centred. */
 export function fitPart(part: Region, cell: Region): Fit {
   const { scale, x, y } = contain(part, cell.width, cell.height);
   return { scale, x: cell.x + x - scale * part.x, y: cell.y + y - scale * part.y };

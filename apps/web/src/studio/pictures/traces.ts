@@ -56,7 +56,7 @@ export class Traces {
     this.show(linesOf('Wind', wind, lean), rows / rate);
   }
 
-  /** Starts empty; findings are added as they arrive. */
+  /** Clears the plots; add() then appends findings as they arrive. */
   begin(): void {
     this.live = { lean: [], loud: [] };
     this.show([], 0);
@@ -80,7 +80,7 @@ export class Traces {
 
   /** Marks the shown time, as a share of the recording. */
   mark(share: number): void {
-    // Does not redraw the lines.
+    // Moves the marker only; the lines are not redrawn.
     this.marker.hidden = false;
     this.marker.style.left = `${(100 * share).toFixed(2)}%`;
   }

@@ -10,7 +10,7 @@ const TRAIL = 40;
 /** Maximum number of frames between positions of one fall. */
 const APART = 12;
 
-/** CSS pixels: smaller boxes are accidental presses. */
+/** Minimum side of a box, CSS pixels; smaller ones are accidental presses. */
 const SLIP = 12;
 /** Share of the picture by which a key moves or widens the box. */
 const KEY_STEP = 0.03;
@@ -82,7 +82,7 @@ export class Viewer {
     this.video.play().catch(() => undefined);
   }
 
-  /** Shows findings in the film, and takes over their picture. */
+  /** Shows findings in the film, and takes ownership of their picture. */
   show(seen: Seen): void {
     this.follow(seen, seen.frame - (this.seen?.frame ?? 0));
     this.seen = seen;
@@ -107,7 +107,7 @@ export class Viewer {
     this.draw();
   }
 
-  /** Shows detected falls over the film's last picture. `lines` receives its size. */
+  /** Shows detected falls over the film's last picture. `lines` receives the picture's size. */
   showFalls(lines: (size: { width: number; height: number }) => readonly Float32Array[]): void {
     this.trail = [];
     this.falls = this.size === null ? [] : lines(this.size);
@@ -144,7 +144,7 @@ export class Viewer {
     return dimensions === null ? null : contain(dimensions, this.over.clientWidth, this.over.clientHeight);
   }
 
-  // One canvas for picture and overlay: each further one is a screen-sized layer, redrawn ten times a second during
+  // One canvas for picture and overlay: a second would be a screen-sized layer, redrawn ten times a second during
   // analysis.
   private drawNow(): void {
     const surface = surfaceOf(this.over);

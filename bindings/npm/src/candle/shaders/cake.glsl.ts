@@ -21,7 +21,7 @@ Hit hitOf(vec2 pixel) {
   vec3 onPlate = onRay(way, (0.06 - uEye) / min(way.y, -1e-4));
   float rim = length(onPlate.xz - middle) - uCake.x;
   if (rim < 0.36) {
-    // The plate curves up towards its edge.
+    // The plate curves up towards its edge, so its normal leans inwards.
     vec2 out_ = normalize(onPlate.xz - middle);
     float bend = -0.55 * smoothstep(0.20, 0.36, rim);
     hit = Hit(onPlate, normalize(vec3(out_.x * bend, 1, out_.y * bend)), kOnPlate);
@@ -47,7 +47,7 @@ vec3 raspberry(vec2 place, float chance) {
   return fruit * (0.62 + 0.38 * sqrt(max(0.0, 1.0 - dot(place, place))));
 }
 
-// A rosette of cream from a star nozzle, wound either way; the candles are at negative place.y.
+// A rosette of cream from a star nozzle, wound either way, lit from the middle of the cake at negative place.y.
 vec3 rosette(vec2 place, float chance) {
   float far = length(place);
   float ridges = cos(6.0 * atan(place.y, place.x) + (chance < 0.5 ? 7.0 : -7.0) * far + 6.28 * chance);

@@ -12,7 +12,7 @@ out vec4 colour;
 const vec3 kFire = vec3(1.0, 0.46, 0.13);
 const vec3 kMoon = vec3(0.30, 0.47, 0.92);
 
-// Height of old drips on the side: twelve around it, each ending in a bead.
+// Height of old drips on the side: up to twelve around the candle, each ending in a bead.
 float drips(float turn, float below) {
   float sum = 0.0;
   float cell = floor((turn + uTurn) / 0.5236);
@@ -140,7 +140,7 @@ void main() {
   // The thin, bright lip between wall and lid.
   float lip = exp(-pow((vAt.y - front) / (0.010 + uPixel), 2.0)) * (0.6 + 0.4 * noise(vec2(turn * 6.0, uSeed)));
   lit += lip * uWax * vec3(1.0, 0.60, 0.27) * 0.50 * uLight;
-  // It shades itself near the table.
+  // The candle is darker at its foot.
   lit *= 1.0 - 0.6 * exp(-(vAt.y - foot) / 0.05) * (1.0 - uStripe);
   vec2 thread = wick(vAt);
   float here = smoothstep(uPixel, -uPixel, thread.x);

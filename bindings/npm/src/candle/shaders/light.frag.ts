@@ -27,7 +27,7 @@ float window(vec2 at) {
   return mix(0.35, 1.0, soft.x * soft.y) * out_.x * out_.y;
 }
 
-// Shadow of a candle around its own foot, on the side opposite to the flame's lean.
+// Share of a lamp's light that its own candle lets through around the foot: 1 far away.
 float shade(vec3 at, vec4 stand, vec3 lamp) {
   if (at.y > uGround + 0.02) return 1.0;
   float high = max(0.15, lamp.y - uGround - stand.w);
@@ -72,7 +72,7 @@ vec3 shown(Hit hit, vec4 surface) {
       light += vec3(1.0, 0.30, 0.06) * uLights[k].w * 0.05 * exp(-foot * 2.2) / (0.4 + uStands[k].w);
     }
   }
-  // Moonlight is hidden while flames burn.
+  // Moonlight is dimmed while flames burn.
   float lit = 0.0;
   for (int k = 0; k < uCount; ++k) lit += uLights[k].w;
   float moon = mix(1.0, 0.12, min(1.0, 2.5 * lit));
@@ -81,7 +81,7 @@ vec3 shown(Hit hit, vec4 surface) {
     vec2 wall = hit.at.xy + vec2(9.0 * sin(0.5 * uTurn), 0);
     night += kMoon * moon * (0.040 * window(wall) + 0.008 * exp(-0.35 * length(wall - vec2(1.9, 2.0))));
   }
-  // The side facing away from the flames has a cool colour.
+  // Moonlight from the right colours the right side of the cake.
   else if (hit.kind == kOnCakeSide) night += kMoon * (0.01 + 0.13 * smoothstep(0.30, 1.0, hit.normal.x));
   else night += kMoon * 0.013 * smoothstep(6.5, 0.0, length(hit.at.xz - vec2(1.2, -3.0)));
   float corner = hit.kind == kOnWall ? 0.30 + 0.70 * smoothstep(0.0, 1.9, hit.at.y) : 0.50 + 0.50 * smoothstep(-4.6, -2.4, hit.at.z);
@@ -94,7 +94,7 @@ void main() {
   Hit hit = hitOf(at);
   vec3 light;
 #if SAMPLES > 1
-  // At edges within a pixel, averages four samples.
+  // Where surfaces meet within a pixel, averages four samples.
   Hit a = hitOf(at + vec2(-0.375, -0.125)), b = hitOf(at + vec2(0.125, -0.375)), c = hitOf(at + vec2(0.375, 0.125)), d = hitOf(at + vec2(-0.125, 0.375));
   if (a.kind != c.kind || b.kind != d.kind || a.kind != b.kind) {
     light = 0.25 * (shown(a, texelFetch(uSurface, cell + ivec2(-1, 0), 0)) + shown(b, texelFetch(uSurface, cell + ivec2(0, -1), 0)) +

@@ -1,5 +1,5 @@
 export default /* glsl */ `
-// One Jacobi iteration of the pressure that makes the flow divergence-free; stored in w of its texture.
+// One Jacobi iteration of the pressure that makes the flow divergence-free; stored in x of its texture.
 uniform sampler2D uFlow, uPressure;
 void main() {
   vec2 x = vec2(uCell.x, 0), y = vec2(0, uCell.y);

@@ -1,5 +1,5 @@
 export default /* glsl */ `
-// Material of the room: colour and gloss. Drawn once per size of the picture.
+// Material of the room: colour and gloss. Drawn again only when size, view, cake or name change.
 out vec4 surface;
 
 vec4 wood(vec3 at) {
@@ -22,7 +22,7 @@ vec4 wood(vec3 at) {
 }
 
 vec4 plaster(vec3 at) {
-  // Other walls continue this one.
+  // Rotation of the eye shifts the pattern, as if further walls continued this one.
   at.x += 9.0 * uTurn;
   float mottle = fractal(at.xy * 0.7) + 0.4 * fractal(at.xy * 3.1 + 9.0);
   float pores = fractal(at.xy * 17.0);
@@ -32,7 +32,7 @@ vec4 plaster(vec3 at) {
 void main() {
   Hit hit = hitOf(gl_FragCoord.xy);
   surface = hit.kind == kOnWall ? plaster(hit.at) : hit.kind == kOnTable ? wood(hit.at) : cakeSurface(hit);
-  // Square root: finer steps than eight bits in the dark.
+  // Stored as square roots: the steps of eight bits are finer in the dark.
   surface.rgb = sqrt(surface.rgb);
 }
 `;
