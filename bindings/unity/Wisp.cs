@@ -223,6 +223,8 @@ namespace Wisp
         [DllImport(Library, CallingConvention = C)] internal static extern int wisp_fit_usable(IntPtr fit);
         [DllImport(Library, CallingConvention = C)] internal static extern IntPtr wisp_fit_reason(IntPtr fit);
 
+        internal static int Version { get { return wisp_version(); } }
+
         internal static byte[] Utf8(string text)
         {
             return Encoding.UTF8.GetBytes(text + "\0");

@@ -97,8 +97,11 @@ class ArxStepper : public ChannelHistory<N> {
     }
   }
 
-  /// Returns whether step_alone() supports the model: one with one output, one mode and no resampled residuals.
-  bool steps_alone() const { return alone_.there(); }
+  /// Returns whether step_alone() supports the model: one output, one mode, no resampled residuals, no vector input.
+  bool steps_alone() const {
+    return alone_.there() && std::none_of(channels_.regressors.begin(), channels_.regressors.end(),
+                                          [](const auto& one) { return one.part >= RegressorPart::kLength; });
+  }
 
   /// Makes `count` >= 2 steps of the only instance, with the bits of `count` calls of step() with a turn() between.
   /// fill(k, first, of, out) writes the values of regressor k for `of` steps from step `first` on; take(first, of,

@@ -23,7 +23,7 @@ bool is_there(const Model& model) {
 constexpr InputShape kShapes[] = {InputShape::kLinear, InputShape::kEvenOdd};
 
 // Orders, delays, gaps among the lags, inputs' shapes and shared shocks by chance; outputs that are often clamped.
-Model filter_of_chance(unsigned seed) {
+Model filter_of_chance(unsigned seed, bool vector = false) {
   std::mt19937 random(seed);
   const auto below = [&](int count) { return static_cast<int>(random() % static_cast<unsigned>(count)); };
   Model model;
@@ -33,6 +33,8 @@ Model filter_of_chance(unsigned seed) {
     const InputShape shape = kShapes[below(2)];
     model.inputs.push_back({"u" + std::to_string(inputs), "", has_powers(shape) ? -1.0 : 0.0, 1.0, shape});
   }
+  if (vector)
+    model.inputs = {{"wind.x", "", -1, 1, InputShape::kWindAlong}, {"wind.z", "", -1, 1, InputShape::kWindAcross}};
   const auto regressors = static_cast<int>(regressor_count(model.inputs));
   ArxModel arx;
   arx.orders = {OrderMatrix(1, 1, below(7)), OrderMatrix(1, regressors), OrderMatrix(1, regressors)};
@@ -101,6 +103,17 @@ TEST(TimeLanes, ManyStepsAreAsManySingleOnes) {
     clamped += bank.clamped().clamped;
   }
   EXPECT_GT(clamped, 100U);
+}
+
+TEST(TimeLanes, ManyStepsInAWindFromAnySideAreAsManySingleOnes) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const Model model = filter_of_chance(seed, true);
+    Bank bank = lone(model), expected = lone(model);
+    const auto inputs = inputs_for(bank, 9);
+    std::vector<float> at_once(9);
+    bank.step(9, inputs, at_once);
+    EXPECT_TRUE(same_bits(at_once, single_steps(expected, 9, inputs))) << seed;
+  }
 }
 
 TEST(TimeLanes, WithoutNoiseToo) {
