@@ -91,8 +91,9 @@ constexpr auto fields_of(const ChainRecipe&) {
             {"modes", "K|auto", 1, 64, "auto"}),
       field("history", &R::history, "how many kinds back the next one depends on", {"history", "H", 1, 2}),
       field("realisation", &R::realisation,
-            "what segments are: recorded ones; splines that vary as those of their kind do; made by a linear system "
-            "with noise, or by a differential equation (ode), of each kind; or halves, each kind a chain of its own",
+            "what segments are: recorded ones; recorded ones smoothed by the largest components of their kind; made by a "
+            "linear system with noise, or by a differential equation (ode), of each kind; or halves, each kind a chain "
+            "of its own",
             {"realisation", "HOW"}),
       field("best_of", &R::best_of,
             "where orientation is known a segment is followed by one of its N best-joining ones; 0: by any, of the "

@@ -8,14 +8,14 @@ namespace wisp {
 
 inline constexpr std::size_t kVerdictKnots = 5;
 
-/// A fact's knots, and what it takes from the log odds at each.
+/// A fact's knots, and how much it lowers the two log odds at each of them.
 struct VerdictCurve {
   std::array<double, kVerdictKnots> knots;
   std::array<double, kVerdictKnots> against_flame;
   std::array<double, kVerdictKnots> against_right;
 };
 
-// One fact a row, with its name behind it.
+// One fact per row; its name is in the comment.
 // clang-format off
 inline constexpr double kFlameOdds = 4.963;
 inline constexpr double kRightOdds = 3.282;

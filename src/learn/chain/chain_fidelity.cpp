@@ -357,7 +357,7 @@ namespace {
 constexpr double kMaxShareOfCeiling = 0.5;  // share of the ceiling above which falls count as unlike the recorded ones
 
 std::array<std::pair<const char*, const Bounded*>, 3> measures_of(const ChainFidelity& fidelity) {
-  return {{{"over half a second", &fidelity.energy_distance},
+  return {{{"over 2.5 segments", &fidelity.energy_distance},
            {"over two seconds", &fidelity.long_energy_distance},
            {"by spectra", &fidelity.spectra}}};
 }
