@@ -90,11 +90,12 @@ constexpr auto fields_of(const ChainRecipe&) {
             "kinds of segment, one of the next of which follows; auto: none, or 6 where there is no orientation",
             {"modes", "K|auto", 1, 64, "auto"}),
       field("history", &R::history, "how many kinds back the next one depends on", {"history", "H", 1, 2}),
-      field("realisation", &R::realisation,
-            "what segments are: recorded ones; recorded ones smoothed by the largest components of their kind; made by a "
-            "linear system with noise, or by a differential equation (ode), of each kind; or halves, each kind a chain "
-            "of its own",
-            {"realisation", "HOW"}),
+      field(
+          "realisation", &R::realisation,
+          "what segments are: recorded ones; recorded ones smoothed by the largest components of their kind; made by a "
+          "linear system with noise, or by a differential equation (ode), of each kind; or halves, each kind a chain "
+          "of its own",
+          {"realisation", "HOW"}),
       field("best_of", &R::best_of,
             "where orientation is known a segment is followed by one of its N best-joining ones; 0: by any, of the "
             "next kind",
