@@ -48,7 +48,7 @@ Model filter_of_chance(unsigned seed, bool vector = false) {
   }
   arx.constant = {0.01};
   arx.output_mean = {-0.01};
-  arx.input_mean.assign(regressors, 0.1 * below(2));
+  arx.input_mean.assign(regressors, vector ? 0 : 0.1 * below(2));
   arx.noise.sd = {below(4) == 0 ? 0 : 0.05};
   model.dynamics = arx;
   return model;
