@@ -15,6 +15,7 @@ constexpr int kMaxPoints = 96;              // maximum width and height of the g
 constexpr std::size_t kBlock = 4;           // width and height of the blocks compared by their means, points
 constexpr int kDark = 24;                   // grey levels: light up to this may be coding errors or camera noise
 constexpr double kMaxIsNew = 0.4;           // maximum share of new light in a scene; cuts have 0.6 to 1, snuffing 0.2
+constexpr int kFlat = 250;                  // level of 255 from which a point counts as saturated
 constexpr double kMinTotalLight = 3 * 255;  // minimum light, summed over all points: less is a spark
 
 // Returns the correlation of two pictures' blocks; 1 if either is nearly uniform, as a room before a candle is lit.
@@ -65,7 +66,7 @@ void FilmLook::look(const Picture& picture) {
     down[y] += value / static_cast<double>(columns_);
   }
   const auto bright = [&](std::uint8_t value) { return brightness(picture, PixelChannel::kLuma, value); };
-  const auto flat = std::count_if(now_.begin(), now_.end(), [&](auto value) { return bright(value) >= kSaturated; });
+  const auto flat = std::count_if(now_.begin(), now_.end(), [&](auto value) { return bright(value) >= kFlat; });
   flat_.push_back(static_cast<double>(flat) / static_cast<double>(now_.size()));
   brightest_point_ = std::max(brightest_point_, bright(*std::max_element(now_.begin(), now_.end())));
   if (!blocks_.empty()) {

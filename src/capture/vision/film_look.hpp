@@ -13,9 +13,6 @@
 
 namespace wisp {
 
-/// Level of 255 from which a point counts as saturated.
-inline constexpr int kSaturated = 250;
-
 /// Returns the shift from a to b, at most 8 elements, over their length; 0 if no shift removes 30 % of the difference.
 double step_between(const std::vector<double>& a, const std::vector<double>& b);
 

@@ -331,7 +331,6 @@ void OutlineCapture::Stage::describe(CapturedOutline& out) const {
   report.facts.burns = burns_;
   report.facts.light = survey_->light;
   report.facts.clipped = survey_->clipped;
-  report.facts.white_around = survey_->white_around;
   report.facts.contrast = survey_->contrast;
   report.facts.steadiness = survey_->steadiness;
   for (const Waited& waited : stood_still_) {

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "base/statistics.hpp"
-#include "capture/vision/film_look.hpp"
 
 namespace wisp {
 namespace {
@@ -174,14 +173,9 @@ struct Brightness {
   double outside = 0;
 };
 
-// Returns the object's home, enlarged by a margin for its surroundings.
-Region surroundings(const Candidate& thing, const Region& area) {
-  return intersection(grown(thing.home, std::max(thing.home.width, thing.home.height) / 8 + 2), area);
-}
-
 std::optional<Brightness> brightness_of(const Candidate& thing, std::span<const Picture> pictures, const Region& area,
                                         bool dark) {
-  const Region box = surroundings(thing, area);
+  const Region box = intersection(grown(thing.home, std::max(thing.home.width, thing.home.height) / 8 + 2), area);
   const PictureGrid grid = sample_grid(pictures, thing.channel, box, kFineGrid, dark);
   std::vector<double> inside, outside;
   for (const auto& picture : grid.pictures) {
@@ -292,32 +286,9 @@ double flat_share(const Candidate& thing, std::span<const Picture> pictures, boo
   return dark || flat.empty() ? 0 : count / static_cast<double>(flat.size());
 }
 
-// Returns the share of an object's surroundings in which some channel is saturated: there the film is overexposed.
-double white_around(const Candidate& thing, std::span<const Picture> pictures, const Region& area) {
-  const Region box = surroundings(thing, area);
-  const PictureGrid own = sample_grid(pictures, thing.channel, box, kFineGrid, false);
-  std::vector<std::uint8_t> white(own.pictures.size() * own.size());
-  for (const PixelChannel channel : kChannels) {
-    if (!has_channel(pictures.front(), channel)) continue;
-    const PictureGrid grid = sample_grid(pictures, channel, box, kFineGrid, false);
-    for (std::size_t k = 0; k < white.size(); ++k) {
-      white[k] |= brightness(pictures.front(), channel, grid.pictures[k / own.size()][k % own.size()]) >= kSaturated;
-    }
-  }
-  std::size_t around = 0, whites = 0;
-  for (std::size_t k = 0; k < white.size(); ++k) {
-    if (own.pictures[k / own.size()][k % own.size()] > thing.level) continue;
-    ++around;
-    whites += white[k];
-  }
-  return static_cast<double>(whites) / static_cast<double>(std::max<std::size_t>(around, 1));
-}
-
-Survey describe(const Candidate& thing, std::span<const Picture> pictures, const Grids& grids, const Region& area,
-                bool dark) {
+Survey describe(const Candidate& thing, std::span<const Picture> pictures, const Grids& grids, bool dark) {
   Survey out{thing};
   out.clipped = flat_share(thing, pictures, dark);
-  out.white_around = dark ? 0 : white_around(thing, pictures, area);
   const PictureGrid& grid = *grids.of(thing.channel);
   for (std::size_t k = 0; k < grid.pictures.size(); ++k) add_to_histogram(out.histogram, grid.view(k));
   return out;
@@ -384,7 +355,7 @@ Result<Survey> survey_scene(std::span<const Picture> pictures, const SurveyOptio
   const auto asked = static_cast<std::size_t>(std::max(options.flame, 1));
   const std::size_t which = flame && asked <= things.size() ? asked - 1 : 0;
   const Candidate found = refine(things[which], all, lit.pictures, area, options, evidence);
-  Survey survey = describe(found, lit.pictures, grids, area, options.dark);
+  Survey survey = describe(found, lit.pictures, grids, options.dark);
   if (!flame) return survey;
   survey.flames = static_cast<int>(things.size());
   for (std::size_t k = 0; k < things.size(); ++k) {

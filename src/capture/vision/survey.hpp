@@ -108,7 +108,6 @@ struct SurveyOptions {
 struct Survey : Candidate {
   Histogram histogram{};       ///< histogram of the channel (inverted for dark objects) over the surveyed pictures
   double clipped = 0;          ///< share of the object that is saturated in every channel
-  double white_around = 0;     ///< share of the object's surroundings in which some channel is saturated
   int flames = 0;              ///< number of flames; 0 where any object was requested
   std::vector<Region> others;  ///< median boxes of the other flames
 };

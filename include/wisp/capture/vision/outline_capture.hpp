@@ -73,7 +73,6 @@ struct OutlineFacts {
   double light = 0;                ///< luma of the object divided by that of the picture's brightest points
   double contrast = 255;           ///< brightness of the object minus that of its surroundings, levels of 255
   double clipped = 0;              ///< share of the object that is saturated in every channel
-  double white_around = 0;         ///< share of the object's surroundings in which some channel is saturated
   double height = 0;               ///< median height, pixels
   FilmFacts film;
 };
