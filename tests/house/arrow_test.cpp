@@ -153,5 +153,18 @@ TEST(Arrow, ALinkThatRunsBackUpIsFound) {
                           "src/CMakeLists.txt: cloud is no layer of docs/architecture.md"));
 }
 
+// Emscripten 3.1.6 compiles these layers for the browser; its C++ library has no algorithms on ranges.
+TEST(Arrow, LayersOfTheBrowserUseNoAlgorithmsOnRanges) {
+  static const std::regex elsewhere("src/(draw|simulate|matfile|capture/media)/.*");
+  std::vector<std::string> found;
+  for (const std::string& file : project_files(WISP_SOURCE_DIR)) {
+    const bool ours = file.starts_with("src/") || file.starts_with("include/");
+    if (!ours || std::regex_match(file, elsewhere)) continue;
+    if (read_text(std::filesystem::path(WISP_SOURCE_DIR) / file).find("std::ranges::") != std::string::npos)
+      found.push_back(file);
+  }
+  EXPECT_THAT(found, IsEmpty());
+}
+
 }  // namespace
 }  // namespace wisp::house::arrow_test

@@ -40,7 +40,8 @@ std::optional<Remark> coincidence(std::span<const Recording> recordings, const C
   constexpr int kShifts = 10, kMinBehind = 8, kMinShift = 40, kLags = 2;
   constexpr double kChance = 1e-3, kExact = 1e-9;
   const std::vector<Recording> some = middles_of(recordings, 8192);  // more rows would not change the answer
-  const std::size_t longest = some.empty() ? 0 : std::ranges::max_element(some, {}, &Recording::rows)->rows();
+  std::size_t longest = 0;
+  for (const Recording& recording : some) longest = std::max(longest, recording.rows());
   const int last = int(longest / 4), first = std::min(kMinShift, last / 2), own_lags = std::min(20, last / 5);
   for (int i = 0; i < orders.outputs(); ++i) {
     std::vector<std::vector<LaggedChannel>> sets(1 + kShifts);

@@ -154,7 +154,8 @@ void judge_fit(const Prepared& prepared, const ChannelChoice& channels, const Ar
   evidence.integrators = options.integrators;
   const auto nb = options.orders.nb.values(), nk = options.orders.nk.values();
   int lags = 0;  // distance between the smallest and the largest lag of all inputs
-  for (std::size_t p = 0; p < nk.size(); ++p) lags = std::max(lags, nk[p] + nb[p] - 1 - *std::ranges::min_element(nk));
+  for (std::size_t p = 0; p < nk.size(); ++p)
+    lags = std::max(lags, nk[p] + nb[p] - 1 - *std::min_element(nk.begin(), nk.end()));
   evidence.redundant = redundant_channels(prepared.seen, channels.inputs, lags);
   evidence.doubts = [&] {
     std::vector<Remark> doubts = feedback_of(prepared.seen, channels.inputs, channels.outputs);
