@@ -17,6 +17,7 @@ constexpr double kMaxRounding = 1e-10;
 // Minimum pivot, as a share of a column's square: below it the column is nearly a combination of the columns before it,
 // and the triangle is used instead of the Gram matrix.
 constexpr double kMinPivot = 1e-9;
+constexpr double kDependent = 1e-10;  // share of a column's norm that its regression on the others leaves to rounding
 
 std::optional<Eigen::MatrixXd> products(const Eigen::MatrixXd& gram, const Eigen::MatrixXd& annihilator) {
   const Eigen::MatrixXd half = gram.selfadjointView<Eigen::Upper>() * annihilator;
@@ -141,9 +142,16 @@ Eigen::MatrixXd left_by(SearchWindows& windows, int first_sample, std::vector<in
   const Eigen::MatrixXd part = windows.gram(first_sample)(base, base);
   const Eigen::LLT<Eigen::MatrixXd> cholesky(part);
   Eigen::MatrixXd upper = cholesky.matrixU();
-  if (!well_determined(cholesky, part.diagonal())) {
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(windows.triangle(first_sample)(Eigen::all, base));
-    upper = qr.matrixQR().topRows(part.rows()).triangularView<Eigen::Upper>();
+  for (bool settled = well_determined(cholesky, part.diagonal()); !settled;) {
+    const Eigen::MatrixXd columns = windows.triangle(first_sample)(Eigen::all, base);
+    upper = Eigen::HouseholderQR<Eigen::MatrixXd>(columns).matrixQR().topRows(columns.cols());
+    upper.triangularView<Eigen::StrictlyLower>().setZero();
+    // A column that the columns before it determine has a direction of rounding errors alone, and is left out.
+    const auto dependent = [&](Eigen::Index k) { return std::abs(upper(k, k)) <= kDependent * columns.col(k).norm(); };
+    Eigen::Index k = 0;
+    while (k + std::ssize(tail) < columns.cols() && !dependent(k)) ++k;
+    settled = k + std::ssize(tail) == columns.cols();
+    if (!settled) base.erase(base.begin() + k);
   }
   return upper.bottomRightCorner(std::ssize(tail), std::ssize(tail));
 }
