@@ -126,10 +126,20 @@ class Reader {
  public:
   explicit Reader(File& file) : file_(file) {}
 
-  Result<Table> table(const std::string& name) const {
-    const auto reference = parse(name);
+  Result<Table> table(std::string name) const {
+    auto reference = parse(name);
     if (!reference) return at(name, "expected a variable such as u, data.u or u(:,2)");
     Found found = file_.read(reference->path);
+    // u2 may also be the name that add_channels() gives to the second column of a matrix u.
+    for (std::size_t end = name.size(); end-- > 1 && is_digit(name[end]) && is_absent(found);) {
+      const std::string text = name.substr(0, end) + "(:," + name.substr(end) + ")";
+      auto column = name[end] == '0' ? std::nullopt : parse(text);
+      Found matrix = column ? file_.read(column->path) : found;
+      if (!std::holds_alternative<Table>(matrix)) continue;
+      found = std::move(matrix);
+      reference = std::move(column);
+      name = text;
+    }
     if (const auto* miss = std::get_if<Miss>(&found)) return at(name, words_of(*miss));
     auto& table = std::get<Table>(found);
     if (table.rows == 1) std::swap(table.rows, table.columns);
@@ -155,6 +165,12 @@ class Reader {
   }
 
  private:
+  static bool is_digit(char c) { return c >= '0' && c <= '9'; }
+  static bool is_absent(const Found& found) {
+    const auto* miss = std::get_if<Miss>(&found);
+    return miss && (*miss == Miss::kNoVariable || *miss == Miss::kNoField);
+  }
+
   std::string words_of(Miss miss) const {
     switch (miss) {
       case Miss::kNoVariable:

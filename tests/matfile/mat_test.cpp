@@ -120,6 +120,19 @@ TEST(Mat, ReadsFieldsAndSingleColumns) {
   EXPECT_THAT(recording->channels[1].samples, ElementsAre(1, 2, 3));
 }
 
+TEST(Mat, AColumnHasTheNameThatItGetsUnlessAVariableHasIt) {
+  ScratchMat file("names");
+  file.matrix("u", 3, 2, {1, 2, 3, 4, 5, 6}).matrix("u1", 3, 1, {7, 8, 9});
+  const auto path = file.close();
+  const auto recording = read_mat(path, {.rate_hz = 10, .inputs = {"u1"}, .outputs = {"u2"}});
+  ASSERT_TRUE(recording) << recording.error().message;
+  EXPECT_THAT(recording->channels[0].samples, ElementsAre(7, 8, 9));
+  EXPECT_EQ(recording->channels[1].name, "u2");
+  EXPECT_THAT(recording->channels[1].samples, ElementsAre(4, 5, 6));
+  EXPECT_THAT(error_of(path, {.rate_hz = 10, .inputs = {"u3"}}), HasSubstr("u(:,3): the variable has 2 columns"));
+  EXPECT_THAT(error_of(path, {.rate_hz = 10, .inputs = {"w2"}}), HasSubstr("w2: there is no such variable"));
+}
+
 TEST(Mat, ListsWhatItCouldRead) {
   ScratchMat file("list");
   file.structure("data", "y", {1, 2, 3}).matrix("u", 3, 2, {1, 2, 3, 4, 5, 6}).text("note", "hello");

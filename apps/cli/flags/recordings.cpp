@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <map>
 #include <utility>
 
 #include "flags/motion_flags.hpp"
@@ -51,42 +50,6 @@ std::string extension_of(const std::filesystem::path& path) {
   return extension;
 }
 
-// Converts a name that read_mat() gives to a column of a matrix, such as u2, to a reference to it: u(:,2). A variable's
-// name stays as it is. `listed`: list_mat().
-std::string reference_to(const std::string& name, const std::vector<std::string>& listed) {
-  const auto exists = [&](const std::string& variable) {
-    return std::ranges::any_of(listed, [&](const std::string& one) { return one.starts_with(variable + " ("); });
-  };
-  if (exists(name)) return name;
-  for (std::size_t at = name.size(); at > 1 && std::isdigit(static_cast<unsigned char>(name[at - 1])) != 0; --at) {
-    const std::string variable = name.substr(0, at - 1), column = name.substr(at - 1);
-    if (column.front() != '0' && exists(variable)) return variable + "(:," + column + ")";
-  }
-  return name;
-}
-
-// Reads the named variables. The name of a matrix column may also be the one that read_mat() gives it, such as u2.
-Result<Recording> read_variables(const std::filesystem::path& path, MatOptions options) {
-  auto read = read_mat(path, options);
-  if (read) return read;
-  const auto listed = list_mat(path);
-  if (!listed) return read;
-  std::map<std::string, std::string> names;
-  for (auto* wanted : {&options.inputs, &options.outputs}) {
-    for (std::string& name : *wanted) {
-      const std::string reference = reference_to(name, *listed);
-      names.emplace(reference, std::exchange(name, reference));
-    }
-  }
-  read = read_mat(path, options);
-  if (!read) return read;
-  for (Channel& channel : read->channels) {
-    if (const auto named = names.find(channel.name); named != names.end()) channel.name = named->second;
-  }
-  if (auto ok = check(*read); !ok) return Error{path.string() + ": " + ok.error().message};
-  return read;
-}
-
 // Reads a MATLAB file. A rate given only by `otherwise` is a default, which yields to the file's own rate.
 Result<Recording> read_matlab(const std::filesystem::path& path, const CsvOptions& options, const Arguments& arguments,
                               const CsvOptions& otherwise) {
@@ -96,9 +59,9 @@ Result<Recording> read_matlab(const std::filesystem::path& path, const CsvOption
   const double rate_hz = options.rate_hz > 0 ? options.rate_hz : options.usual_rate_hz;
   const auto most = static_cast<std::size_t>(arguments.has("unpacked") ? arguments.number("unpacked") * 1e9 : 0);
   const MatOptions named{.rate_hz = rate_hz, .max_bytes = most, .inputs = options.inputs, .outputs = options.outputs};
-  if (arguments.has("dt") || arguments.has("rate") || otherwise.rate_hz == 0) return read_variables(path, named);
-  auto stated = read_variables(path, {.max_bytes = most, .inputs = options.inputs, .outputs = options.outputs});
-  return stated ? std::move(stated) : read_variables(path, named);
+  if (arguments.has("dt") || arguments.has("rate") || otherwise.rate_hz == 0) return read_mat(path, named);
+  auto stated = read_mat(path, {.max_bytes = most, .inputs = options.inputs, .outputs = options.outputs});
+  return stated ? std::move(stated) : read_mat(path, named);
 }
 
 }  // namespace

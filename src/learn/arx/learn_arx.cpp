@@ -1,6 +1,7 @@
 #include "learn/arx/learn_arx.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "learn/choose/focus.hpp"
@@ -96,7 +97,9 @@ Fit finish(const ArxFit& fit, const ArxRecipe& recipe, const ChannelChoice& chan
   model.dynamics = fit.model;
   model.training.own_levels = sources.own_levels;
   model.training.recipe = notes_of(recipe, fit);
-  model.training.figures = {{"fpe", fit.summary.fpe}, {"samples_used", static_cast<double>(fit.summary.rows)}};
+  // Residuals of data without noise may have a singular covariance, and then no FPE.
+  if (std::isfinite(fit.summary.fpe)) model.training.figures = {{"fpe", fit.summary.fpe}};
+  model.training.figures.push_back({"samples_used", static_cast<double>(fit.summary.rows)});
   model.training.usable = fit.summary.usable;
   add_fit(fit, model, out.report);
   if (recipe.responses) add_responses({fit.model, channels, sources.rate_hz, fit.covariance}, true, out.report);

@@ -17,7 +17,7 @@ constexpr double kMaxRounding = 1e-10;
 // Minimum pivot, as a share of a column's square: below it the column is nearly a combination of the columns before it,
 // and the triangle is used instead of the Gram matrix.
 constexpr double kMinPivot = 1e-9;
-constexpr double kDependent = 1e-10;  // share of a column's norm that its regression on the others leaves to rounding
+constexpr double kDependent = 1e-10;  // share of a column's norm up to which its regression on others leaves rounding
 
 std::optional<Eigen::MatrixXd> products(const Eigen::MatrixXd& gram, const Eigen::MatrixXd& annihilator) {
   const Eigen::MatrixXd half = gram.selfadjointView<Eigen::Upper>() * annihilator;
@@ -137,23 +137,23 @@ CandidateFit fit_candidate(SearchWindows& windows, int first_sample, const LagLa
   return fit;
 }
 
-Eigen::MatrixXd left_by(SearchWindows& windows, int first_sample, std::vector<int> base, const std::vector<int>& tail) {
-  base.insert(base.end(), tail.begin(), tail.end());
-  const Eigen::MatrixXd part = windows.gram(first_sample)(base, base);
+Eigen::MatrixXd left_by(SearchWindows& windows, int first_sample, const std::vector<int>& base,
+                        const std::vector<int>& tail) {
+  std::vector<int> both = base;
+  both.insert(both.end(), tail.begin(), tail.end());
+  const Eigen::MatrixXd part = windows.gram(first_sample)(both, both);
   const Eigen::LLT<Eigen::MatrixXd> cholesky(part);
-  Eigen::MatrixXd upper = cholesky.matrixU();
-  for (bool settled = well_determined(cholesky, part.diagonal()); !settled;) {
-    const Eigen::MatrixXd columns = windows.triangle(first_sample)(Eigen::all, base);
-    upper = Eigen::HouseholderQR<Eigen::MatrixXd>(columns).matrixQR().topRows(columns.cols());
-    upper.triangularView<Eigen::StrictlyLower>().setZero();
-    // A column that the columns before it determine has a direction of rounding errors alone, and is left out.
-    const auto dependent = [&](Eigen::Index k) { return std::abs(upper(k, k)) <= kDependent * columns.col(k).norm(); };
-    Eigen::Index k = 0;
-    while (k + std::ssize(tail) < columns.cols() && !dependent(k)) ++k;
-    settled = k + std::ssize(tail) == columns.cols();
-    if (!settled) base.erase(base.begin() + k);
-  }
-  return upper.bottomRightCorner(std::ssize(tail), std::ssize(tail));
+  const Eigen::MatrixXd upper = cholesky.matrixU();
+  if (well_determined(cholesky, part.diagonal())) return upper.bottomRightCorner(std::ssize(tail), std::ssize(tail));
+  const Eigen::MatrixXd targets = windows.triangle(first_sample)(Eigen::all, tail);
+  if (base.empty()) return targets;
+  Eigen::MatrixXd columns = windows.triangle(first_sample)(Eigen::all, base);
+  columns.colwise().normalize();
+  // A column that other columns determine would add a direction of rounding errors alone: the rank leaves it out.
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
+  qr.setThreshold(kDependent);
+  const Eigen::MatrixXd rotated = qr.householderQ().adjoint() * targets;
+  return rotated.bottomRows(rotated.rows() - qr.rank());
 }
 
 Eigen::MatrixXd residual_gram_over(SearchWindows& windows, int first_sample, const Eigen::MatrixXd& annihilator) {

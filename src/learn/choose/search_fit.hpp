@@ -49,9 +49,10 @@ struct CandidateFit {
 CandidateFit fit_candidate(SearchWindows& windows, int first_sample, const LagLayout& layout,
                            const std::vector<SharedRows>& rows);
 
-/// Triangle T of the residuals of the columns `tail` in a regression on the columns `base`: |T v|² is the sum of
-/// squares of the residuals of tail·v.
-Eigen::MatrixXd left_by(SearchWindows& windows, int first_sample, std::vector<int> base, const std::vector<int>& tail);
+/// Matrix T of the residuals of the columns `tail` in a regression on the columns `base`: |T v|² is the sum of squares
+/// of the residuals of tail·v.
+Eigen::MatrixXd left_by(SearchWindows& windows, int first_sample, const std::vector<int>& base,
+                        const std::vector<int>& tail);
 
 /// Σ r_i r_j of a fit over a window of different data.
 Eigen::MatrixXd residual_gram_over(SearchWindows& windows, int first_sample, const Eigen::MatrixXd& annihilator);
