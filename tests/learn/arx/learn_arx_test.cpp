@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "learn/arx/made_system.hpp"
 #include "learn/judge/judged_fit.hpp"
@@ -44,6 +45,22 @@ const ReportSeries* series_of(const Report& report, const std::string& id) {
     }
   }
   return nullptr;
+}
+
+TEST(LearnArx, AModelWhoseResidualsHaveASingularCovarianceCanBeWritten) {
+  Recording recording = record_system(made_system(), 1000, 1, 0);
+  ArxRecipe recipe = recipe_of_made();
+  recipe.na = recipe.nb = 2, recipe.nk = 1;
+  const Channel of = recording.channels[*find_channel(recording, "y1")];
+  for (int k = 3; k < 12; ++k) {
+    Channel& copy = recording.channels.emplace_back(of);
+    copy.name = "y" + std::to_string(k);
+    recipe.outputs.push_back(copy.name);
+    for (double& value : copy.samples) value *= 0.3 * k;
+  }
+  const Fit fit = learned(recording, recipe);
+  for (const auto& figure : fit.model.training.figures) EXPECT_TRUE(std::isfinite(figure.value)) << figure.name;
+  EXPECT_EQ(fit.model.training.figures.back().name, "samples_used");
 }
 
 TEST(LearnArx, TheModelIsThatOfTheFitWithItsChannelsAndAnAccount) {
