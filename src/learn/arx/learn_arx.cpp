@@ -112,8 +112,7 @@ namespace {
 struct Prepared {
   std::vector<Recording> moved{};
   std::span<const Recording> seen;
-  std::vector<Recording> middle{};
-  std::span<const Recording> judged{};  // all rows, or the central part of very long recordings
+  std::vector<Recording> judged{};  // all rows, or the central part of very long recordings
   ArxOptions options{};
   Sources sources{};
 };
@@ -125,9 +124,7 @@ Result<Prepared> prepare(std::span<const Recording> recordings, const ArxRecipe&
   Prepared out{.seen = recordings, .sources = std::move(*sources)};
   out.sources.own_levels = recordings.size() > 1 && recipe.offset == ArxOffset::kMean;
   if (out.sources.own_levels) out.seen = out.moved = about_own_levels(recordings, channels);
-  std::size_t rows = 0;
-  for (const Recording& one : out.seen) rows += one.rows();
-  out.judged = rows <= kJudgedRows ? out.seen : out.middle = middles_of(out.seen, kJudgedRows);
+  out.judged = middles_of(out.seen, kJudgedRows);
   const auto orders = chosen_orders(out.seen, recipe, channels, progress, chosen);
   if (!orders) return orders.error();
   out.options = fit_options(recipe, *orders);

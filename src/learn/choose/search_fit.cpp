@@ -1,7 +1,6 @@
 #include "learn/choose/search_fit.hpp"
 
 #include <Eigen/Dense>
-#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -123,11 +122,9 @@ CandidateFit fit_candidate(SearchWindows& windows, int first_sample, const LagLa
   const Eigen::MatrixXd& gram = windows.gram(first_sample);
   bool by_gram = true;
   for (const SharedRows& part : rows) by_gram = by_gram && solve_by_gram(gram, part, layout, fit.annihilator);
-  if (by_gram) {
-    if (auto square = products(gram, fit.annihilator)) {
-      fit.residual_gram = std::move(*square);
-      return fit;
-    }
+  if (auto square = by_gram ? products(gram, fit.annihilator) : std::nullopt) {
+    fit.residual_gram = std::move(*square);
+    return fit;
   }
   const Eigen::MatrixXd& triangle = windows.triangle(first_sample);
   for (const SharedRows& part : rows) {
@@ -145,14 +142,14 @@ Eigen::MatrixXd left_by(SearchWindows& windows, int first_sample, const std::vec
   const Eigen::LLT<Eigen::MatrixXd> cholesky(part);
   const Eigen::MatrixXd upper = cholesky.matrixU();
   if (well_determined(cholesky, part.diagonal())) return upper.bottomRightCorner(std::ssize(tail), std::ssize(tail));
-  const Eigen::MatrixXd targets = windows.triangle(first_sample)(Eigen::all, tail);
-  if (base.empty()) return targets;
-  Eigen::MatrixXd columns = windows.triangle(first_sample)(Eigen::all, base);
+  const Eigen::MatrixXd& triangle = windows.triangle(first_sample);
+  if (base.empty()) return triangle(Eigen::all, tail);
+  Eigen::MatrixXd columns = triangle(Eigen::all, base);
   columns.colwise().normalize();
   // A column that other columns determine would add a direction of rounding errors alone: the rank leaves it out.
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
   qr.setThreshold(kDependent);
-  const Eigen::MatrixXd rotated = qr.householderQ().adjoint() * targets;
+  const Eigen::MatrixXd rotated = qr.householderQ().adjoint() * triangle(Eigen::all, tail);
   return rotated.bottomRows(rotated.rows() - qr.rank());
 }
 
