@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kPersistence = 0.6;     // minimum share of the pictures that contain a candidate
 constexpr std::size_t kMaxRegions = 24;  // maximum number of regions per picture and level, largest first
-constexpr std::size_t kMinRows = 3;      // minimum rows of a region whose shape is measured
 constexpr double kStillWorth = 0.15;     // weight of a candidate that never changes shape, relative to a moving one
 constexpr double kAloneIsBetter = 0.5;   // weight of a candidate cut from its stand, relative to one that stands alone
 constexpr double kLightPower = 8;        // exponent of light: 10 % less luma about halves the likelihood
@@ -297,9 +296,7 @@ std::vector<Candidate> find_candidates(const PictureGrid& grid, const PictureGri
     Candidate c;
     c.level = level;
     c.stands = evidence.flame && cut_stands(shapes);
-    std::erase_if(shapes, [](const Shape& shape) { return shape.profile.rows.size() < kMinRows; });
     c.presence = static_cast<double>(shapes.size()) / static_cast<double>(grid.pictures.size());
-    if (c.presence < kPersistence) continue;
     std::vector<double> areas, light;
     for (Shape& shape : shapes) {
       measure(shape);

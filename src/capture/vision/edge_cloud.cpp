@@ -87,14 +87,13 @@ double middle_across(std::span<const PixelPosition> boundary, const Axes& axes, 
 
 // Returns the slope of the lower part's centre line: pixels to the right per pixel up.
 double lean(std::span<const PixelPosition> boundary, const Axes& axes) {
-  constexpr double kSteepest = 1.7;  // 60 degrees: a flatter centre line is unreliable
   Stretch depth;
   for (const PixelPosition& p : boundary) depth.take(axes.down(p.x, p.y));
   const double band = std::max(0.1 * (depth.high - depth.low), 1.0);
   const double upper = depth.high - 3.5 * band, lower = depth.high - 1.5 * band;
-  const double drift = middle_across(boundary, axes, upper - 0.5 * band, upper + 0.5 * band) -
-                       middle_across(boundary, axes, lower - 0.5 * band, lower + 0.5 * band);
-  return std::clamp(drift / (2 * band), -kSteepest, kSteepest);
+  return (middle_across(boundary, axes, upper - 0.5 * band, upper + 0.5 * band) -
+          middle_across(boundary, axes, lower - 0.5 * band, lower + 0.5 * band)) /
+         (2 * band);
 }
 
 // Direction in which a corner of the base is the extreme point.

@@ -13,10 +13,9 @@ namespace {
 
 constexpr int kMaxPoints = 96;              // maximum width and height of the grid, points
 constexpr std::size_t kBlock = 4;           // width and height of the blocks compared by their means, points
-constexpr int kDark = 24;                   // grey levels: light up to this may be coding errors or camera noise
 constexpr double kMaxIsNew = 0.4;           // maximum share of new light in a scene; cuts have 0.6 to 1, snuffing 0.2
-constexpr int kFlat = 250;                  // level of 255 from which a point counts as saturated
 constexpr double kMinTotalLight = 3 * 255;  // minimum light, summed over all points: less is a spark
+constexpr int kFlat = 250;                  // level of 255 from which a point counts as saturated
 
 // Returns the correlation of two pictures' blocks; 1 if either is nearly uniform, as a room before a candle is lit.
 double likeness(const std::vector<double>& a, const std::vector<double>& b) {
@@ -108,8 +107,8 @@ bool FilmLook::another(const Picture& picture, const Region& within) {
   for (std::size_t k = 0; k < now_.size(); ++k) {
     const int x = static_cast<int>(k % columns_) * step_, y = static_cast<int>(k / columns_) * step_;
     if (x < within.x || x >= within.right() || y < within.y || y >= within.bottom()) continue;
-    light += std::max(0, now_[k] - kDark);
-    fresh += std::max(0, now_[k] - std::max<int>(brightest_[k], kDark));
+    light += std::max(0, now_[k] - kNoise);
+    fresh += std::max(0, now_[k] - std::max<int>(brightest_[k], kNoise));
   }
   return light > kMinTotalLight && fresh > kMaxIsNew * light;
 }

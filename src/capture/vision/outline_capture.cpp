@@ -17,20 +17,15 @@ namespace wisp {
 namespace {
 
 constexpr std::size_t kMinTracked = 10;
-constexpr std::size_t kMinHeld = 8;
-constexpr int kMinEdgePoints = 128;
-constexpr int kEdgePointsEach = 12;    // edge points per control point: more add no stability, as errors correlate
+constexpr int kEdgePoints = 192;       // more add no stability, as errors correlate
 constexpr std::size_t kSurveyed = 20;  // maximum number of held frames in the survey
 constexpr std::size_t kSamples = 6;    // maximum number of held frames from which the curve's shape is chosen
 
-// An object burns within these bounds; kMinRoundChange applies above kMaxWidth. Change of shape: flames reach 0.05 and
-// more in a second, lit walls and lamps 0.015 at most, but a round lamp 24 pixels wide, filmed by hand, reaches 0.05.
+// An object burns from these on. Change of shape: flames reach 0.05 and more in a second, lit walls and lamps 0.015 at
+// most, but a round lamp 24 pixels wide, filmed by hand, reaches 0.05: what is wider than kMaxWidth must surely move.
 constexpr double kMinChange = 0.02;
-constexpr double kMinRoundChange = 0.1;
 constexpr double kMinNarrowing = 0.25;
-constexpr double kMinLight = 0.85;
-constexpr double kMinContrast = 20;
-constexpr double kMaxWidth = 0.8;
+constexpr double kMaxWidth = 0.8;  // of the height
 
 // The underside is followed if the misfit of every sample falls below this share, as it takes control points from the
 // sides and makes them move more. Every sample counts: a flame that is calm at first may lift a foot later.
@@ -41,18 +36,12 @@ bool worth_following(const CurveShape& around, const CurveShape& above) {
                     [](double with, double without) { return with < kWorthFollowing * without; });
 }
 
-// Returns whether the object is usually wider than a flame.
-bool is_round(const Survey& survey) {
-  std::vector<double> widths;
-  for (const Region& box : survey.seen) widths.push_back(static_cast<double>(box.width) / box.height);
-  return median(std::move(widths)) > kMaxWidth;
-}
-
 // Returns whether the object burns; if not, the capture waits for a flame to be lit. The verdict would refuse objects
-// that stand still, are lit by something else or exceed their surroundings too little (noise of a dark room).
+// that stand still or exceed their surroundings too little.
 bool burns(const Survey& survey) {
-  return survey.change >= (is_round(survey) ? kMinRoundChange : kMinChange) && survey.taper >= kMinNarrowing &&
-         survey.light >= kMinLight && survey.contrast >= kMinContrast;
+  const Region place = usual_place(survey.seen);
+  return survey.change >= (place.width > kMaxWidth * place.height ? kSurelyMoves : kMinChange) &&
+         survey.taper >= kMinNarrowing && survey.contrast >= kNoise;
 }
 
 // Returns at most `count` of the pictures, equally spaced.
@@ -152,7 +141,7 @@ Result<void> OutlineCapture::Stage::feed(const Picture& picture) {
   held_.emplace_back(OwnedPicture(picture));
   held_bytes_ += held_.back()->bytes();
   const bool enough = held_.size() >= static_cast<std::size_t>(options_.held_frames) ||
-                      (held_bytes_ >= options_.held_bytes && held_.size() >= kMinHeld);
+                      (held_bytes_ >= options_.held_bytes && held_.size() >= kMinTracked);
   return enough ? decide() : Result<void>();
 }
 
@@ -186,7 +175,7 @@ Result<void> OutlineCapture::Stage::decide(bool at_end) {
   for (const auto& held : held_) {
     if (held) pictures.push_back(held->picture());
   }
-  cloud_options_.max_points = std::max(kMinEdgePoints, kEdgePointsEach * options_.points);
+  cloud_options_.max_points = kEdgePoints;
   std::vector<Picture> seen = evenly_from(pictures, kSurveyed);
   for (const OwnedPicture& glimpse : glimpses_) {
     if (!waited_) seen.push_back(glimpse.picture());

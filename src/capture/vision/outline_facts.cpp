@@ -11,9 +11,6 @@
 namespace wisp {
 namespace {
 
-constexpr double kJumpRatio = 2.2;   // a height that changes by this factor between frames belongs to another object
-constexpr double kOutSeconds = 0.3;  // minimum final absence of an extinguished flame; other gaps last 0.13 s at most
-
 struct OutlineRow {
   std::size_t row = 0;
   std::vector<CurvePoint> curve;
@@ -120,8 +117,7 @@ double jumps_of(const std::vector<OutlineRow>& shapes, double height) {
     const OutlineRow &a = shapes[k - 1], &b = shapes[k];
     if (b.row != a.row + 1) continue;
     ++steps;
-    const double ratio = std::max(a.height, b.height) / std::min(a.height, b.height);
-    jumps += length(b.base.x - a.base.x, b.base.y - a.base.y) > kAsNear * height || ratio > kJumpRatio;
+    jumps += length(b.base.x - a.base.x, b.base.y - a.base.y) > kAsNear * height;
   }
   return steps == 0 ? 0 : static_cast<double>(jumps) / static_cast<double>(steps);
 }
@@ -151,7 +147,7 @@ bool repeats(const DroppedFrame& one) { return one.reason == "duplicate"; }
 std::optional<std::size_t> out_at(const CaptureReport& report, std::size_t last) {
   const std::size_t dark = report.frames - 1 - last;
   if (!report.dropped.empty() && repeats(report.dropped.back())) return std::nullopt;
-  if (report.facts.fades_out || static_cast<double>(dark) < kOutSeconds * report.rate_hz) return std::nullopt;
+  if (report.facts.fades_out || static_cast<double>(dark) < kGlintSeconds * report.rate_hz) return std::nullopt;
   return last + 1;
 }
 

@@ -7,21 +7,18 @@
 #include <string>
 
 #include "base/statistics.hpp"
+#include "capture/vision/survey.hpp"
 
 namespace wisp {
 namespace {
 
 constexpr double kFadeShare = 0.73;  // share of an object's usual brightness below which it is fading
-// Brightness in the last 0.1 s before an absence, relative to usual: below 0.89 where the film fades out over 1 to 2 s,
-// 0.94 to 0.98 where a flame is snuffed.
-constexpr double kDimShare = 0.92;
 constexpr double kDimSeconds = 0.1;
 constexpr double kDuplicateShare = 0.35;  // change relative to neighbours below which a frame is a duplicate
 constexpr double kDuplicateMost = 0.5;    // grey levels of change above which a frame is new: it has new noise
 constexpr std::size_t kNeighbours = 4;    // frames compared on each side; minimum length of a frozen stretch
 constexpr double kFrozenMost = 0.1;       // maximum change of a frame in a frozen stretch, grey levels
 constexpr double kFrozenUsual = 0.02;     // maximum median change in a stretch: coding corrects repeats once or twice
-constexpr double kGlintSeconds = 0.2;     // maximum duration of a glint
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 enum class Fate : std::uint8_t { kKept, kDuplicate, kFilled, kFade, kNothing, kLost };
@@ -214,7 +211,7 @@ bool fades_out(const std::vector<Fate>& fate, const FrameFindings& findings, dou
   if (end < rows) return false;
   return std::all_of(findings.frames.begin() + static_cast<std::ptrdiff_t>(end - rows),
                      findings.frames.begin() + static_cast<std::ptrdiff_t>(end),
-                     [&](const FrameFinding& f) { return f.brightness < kDimShare * usual_brightness; });
+                     [&](const FrameFinding& f) { return f.brightness < kAsBright * usual_brightness; });
 }
 
 void write_channels(const std::vector<Fate>& fate, const std::vector<double>& controls, int points,

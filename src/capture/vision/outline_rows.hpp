@@ -14,6 +14,9 @@ namespace wisp {
 /// Number of points of the polyline by which an outline is measured and shown.
 inline constexpr int kCurvePoints = 64;
 
+/// Maximum duration of a glint, which is not the object, and of an absence that is no extinction; these last 0.13 s.
+inline constexpr double kGlintSeconds = 0.2;
+
 struct FrameFinding {
   enum class Kind : std::uint8_t { kTracked, kNothing, kLost };
   Kind kind = Kind::kNothing;

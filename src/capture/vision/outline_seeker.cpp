@@ -12,15 +12,13 @@ namespace {
 constexpr int kMinMargin = 8;          // pixels searched around the object's last place
 constexpr double kMarginPace = 1.5;    // multiple of the object's recent motion that is added to kMinMargin
 constexpr double kPaceMemory = 0.8;    // factor by which the stored recent motion decays per frame
-constexpr double kMinAreaShare = 0.1;  // minimum share of the object's usual area: less is a spark or an ember
+constexpr double kMinAreaShare = 0.1;  // minimum share of the object's usual area: less is a spark or an ember; after
+                                       // an absence, the inverse is the maximum
 constexpr int kMinArea = 24;           // minimum pixels of a region
 
-constexpr double kJumpShare = 0.03;  // an extension at the base by this share of the length suggests a stand
-constexpr double kSlack = 0.12;      // share of the length: a stand may begin this far above the object's last base
-constexpr double kFarDeeper = 0.25;  // share of the length: an extension this far below the base is always stand
-
-constexpr double kAsLarge = 4;  // maximum ratio between the areas of an object before and after an absence
-constexpr double kStays = 0.2;  // minimum overlap with the last frame's box, as a share of the smaller box
+constexpr double kSlack = 0.12;  // share of the length: a stand may begin this far above the object's last base, and an
+                                 // extension this far below it is always stand
+constexpr double kStays = 0.2;   // minimum overlap with the last frame's box, as a share of the smaller box
 
 // Returns the midpoint of a box's end towards the base.
 PixelPosition foot(const Region& box, BaseSide side) {
@@ -72,7 +70,7 @@ bool OutlineSeeker::ours(const Region& box) const {
 bool OutlineSeeker::alike() const {
   const double area = static_cast<double>(found_.area);
   const bool bright = dark_ || brightness_ >= kAsBright * usual_brightness_;
-  return bright && area < kAsLarge * usual_area_ && area > usual_area_ / kAsLarge;
+  return bright && kMinAreaShare * area < usual_area_ && area > kMinAreaShare * usual_area_;
 }
 
 // Returns whether the region found may be the object: it must overlap the box of the frame before or, after an absence,
@@ -142,9 +140,8 @@ bool OutlineSeeker::part_from_stand() {
   const int length = rows ? box.height : box.width;
   const int jump = deeper(end, base_edge_, base_);
   const bool inside = jump < length;
-  const bool suspicious = jump > std::max(kMinStep, static_cast<int>(kJumpShare * length));
   follow();
-  if (!inside || (!stands_ && !suspicious)) {
+  if (!inside || (!stands_ && jump <= kMinStep)) {
     base_edge_ = end;
     return true;
   }
@@ -152,8 +149,7 @@ bool OutlineSeeker::part_from_stand() {
   const int above = length - jump;
   const int slack = static_cast<int>(kSlack * above);
   const auto shoulder = find_shoulder(profile_, static_cast<std::size_t>(std::max(0, stands_ ? 0 : above - slack)));
-  const bool far = stands_ && jump > static_cast<int>(kFarDeeper * above);
-  if (!shoulder && !far) {
+  if (!shoulder && !(stands_ && jump > slack)) {
     base_edge_ = end;
     return true;
   }

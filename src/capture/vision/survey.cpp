@@ -16,7 +16,6 @@ constexpr int kLevelStep = 18;            // step between the levels tried, of 2
 constexpr int kHighestLevel = 225;        // a higher level would cut through the flame, as cameras clip above it
 constexpr double kLitShare = 0.7;         // minimum brightest_of() of a surveyed picture, share of the upper quartile
 constexpr double kOtherScene = 64;        // maximum mean difference of a surveyed picture from the median picture
-constexpr double kOneBrightness = 16;     // of 255, above the darkest tenth: a smaller contrast is noise
 constexpr double kAsLikely = 0.35;        // minimum score of another flame relative to the first
 constexpr double kAsGood = 0.5;           // minimum relative likeness of the object at another level
 constexpr double kHalfWay = 0.58;         // position of the level between surroundings (0) and object (1)
@@ -300,7 +299,7 @@ bool has_contrast(const Grids& grids, const Picture& format, const SurveyOptions
     if (!wanted(channel, format, options)) return false;
     const PictureGrid& grid = *grids.of(channel);
     for (std::size_t k = 0; k < grid.pictures.size(); ++k) {
-      if (brightest_of(grid.view(k)) - quantile(grid.pictures[k], 0.1) >= kOneBrightness) return true;
+      if (brightest_of(grid.view(k)) - quantile(grid.pictures[k], 0.1) >= kNoise) return true;
     }
     return false;
   });

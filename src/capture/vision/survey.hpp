@@ -25,8 +25,10 @@ namespace wisp {
 
 inline constexpr double kSurelyMoves = 0.06;  ///< Candidate::change from which an object certainly moves
 inline constexpr double kSamePlace = 0.5;     ///< minimum intersection over union of boxes of one object
-inline constexpr double kAsBright = 0.9;      ///< minimum relative brightness of another, or refound, flame
+inline constexpr double kAsBright = 0.9;      ///< minimum relative brightness of another, or refound, or snuffed flame
 inline constexpr double kAsNear = 0.35;       ///< maximum displacement of an object's base, object lengths
+
+inline constexpr int kNoise = 16;  ///< of 255: a smaller difference may be coding errors or camera noise
 
 /// One channel of several pictures over one region, sampled at every `step`-th pixel.
 struct PictureGrid {
