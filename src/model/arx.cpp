@@ -193,7 +193,7 @@ double radius(Square m, int n) {
   double share = 1;
   for (int doubling = 0; doubling < 40; ++doubling) {
     const double norm = frobenius(m);
-    if (norm == 0.0) return 0.0;
+    if (norm == 0.0 || std::isinf(norm)) return norm;  // infinite: a coefficient beyond single precision
     for (double& value : m) value /= norm;
     log_radius += share * std::log2(norm);
     share /= 2;

@@ -10,7 +10,7 @@
 namespace wisp {
 namespace {
 
-constexpr int kEscape = 24;         // a folded difference of this quotient or above is written in full after 24 ones
+constexpr int kEscape = 24;         // Rice quotient from which on a folded difference is written in full, after 24 ones
 constexpr int kWholeBits = 20;      // bits of a folded difference written in full
 constexpr std::size_t kOrders = 4;  // orders of prediction, 0 to 3
 

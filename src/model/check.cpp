@@ -34,7 +34,8 @@ Result<void> check_shapes(const std::vector<Input>& inputs) {
     const Input& input = inputs[k];
     const std::size_t other = input.shape == InputShape::kWindAlong ? k + 1 : k - 1;
     const bool paired = other < inputs.size() && is_vector(inputs[other].shape) && inputs[other].shape != input.shape;
-    if (!is_vector(input.shape) || (paired && input.lowest == -input.highest)) continue;
+    const bool same = paired && input.lowest == -input.highest && input.highest == inputs[other].highest;
+    if (!is_vector(input.shape) || same) continue;
     return Error{
         "input " + input.name +
         " is one of the two numbers of a vector, and the other is missing or its range not the same either way"};
@@ -61,6 +62,10 @@ Result<void> check_channels_of(const Model& model, const ArxOrders& orders) {
 Result<void> check_dynamics(const Model& model, const ArxModel& arx) {
   if (auto ok = check(arx); !ok) return ok;
   if (auto ok = check_channels_of(model, arx.orders); !ok) return ok;
+  const auto* outline = std::get_if<OutlineView>(&model.view);
+  const ResampledResiduals& rows = arx.noise.resampled;
+  if (!rows.empty() && rows.across != static_cast<int>(outline ? outline->shape.across : 0))
+    return Error{"the resampled residuals have another number of components in z than the shape"};
   const double radius = spectral_radius(arx);
   if (!(radius < 1.0)) {
     return Error{"the dynamics are unstable in single precision: spectral radius " + std::to_string(radius) +
@@ -92,6 +97,10 @@ Result<void> check_dynamics(const Model& model, const ChainModel& chain) {
   if (model.inputs.size() != inputs || regressor_count(model.inputs) != inputs) {
     return Error{"the chain takes " + std::to_string(inputs) + " inputs, the wind's x, y and z for its response to " +
                  "gusts and else none; the model names " + std::to_string(model.inputs.size())};
+  }
+  for (const Input& input : model.inputs) {
+    if (input.lowest == model.inputs[0].lowest && input.highest == model.inputs[0].highest) continue;
+    return Error{"the winds x, y and z of the chain have different ranges, expected one"};
   }
   return {};
 }

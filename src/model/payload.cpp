@@ -364,9 +364,8 @@ Result<void> read_dynamics(const file::Model& stored, Model& model) {
 
 std::vector<ValueRange> ranges(const fb::Vector<double>* stored) {
   std::vector<ValueRange> out;
-  for (std::size_t k = 0; stored && k + 1 < stored->size(); k += 2) {
-    out.push_back({stored->Get(static_cast<fb::uoffset_t>(k)), stored->Get(static_cast<fb::uoffset_t>(k + 1))});
-  }
+  const std::vector<double> ends = copied(stored);
+  for (std::size_t k = 0; k + 1 < ends.size(); k += 2) out.push_back({ends[k], ends[k + 1]});
   return out;
 }
 

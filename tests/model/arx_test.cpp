@@ -34,6 +34,8 @@ TEST(ArxModel, TheRadiusIsTakenAfterRoundingToSinglePrecision) {
   EXPECT_GE(spectral_radius(scalar({-(1.0 - 1e-9)})), 1.0 - 1e-12);
 }
 
+TEST(ArxModel, ACoefficientBeyondSinglePrecisionIsUnstable) { EXPECT_GE(spectral_radius(scalar({1e39})), 1); }
+
 TEST(ArxModel, CoupledOutputsAreOneSystem) {
   // y1(t) = 0.9 y2(t−1), y2(t) = 0.9 y1(t−1): eigenvalues ±0.9, though no output feeds itself.
   ArxModel model;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
@@ -301,6 +302,23 @@ TEST(ModelFile, MoreComponentsThanThereCanBeAreRefusedBeforeTheirMatricesAreRead
     bytes[at] = bytes[at + 1] = std::byte{0xff};
     const auto outcome = parse_model(mended(bytes), "hostile.wisp");
     if (!outcome && outcome.error().message.find("expected at most 4096") != std::string::npos) ++refused;
+  }
+  EXPECT_GT(refused, 0u);
+}
+
+// With 4 added to its offset, a vector begins within its first number, whose lower half becomes its length, here 2. The
+// numbers are then aligned to 4 bytes only, and a sanitizer reports those that are read in place.
+TEST(ModelFile, RangesAtAMisalignedAddressAreCopiedAndRefused) {
+  Model model = shaped_model();
+  double& lowest = std::get<OutlineView>(model.view).shape.coordinates[0].lowest;
+  lowest = std::bit_cast<double>(std::bit_cast<std::uint64_t>(lowest) | 2);
+  const std::vector<std::byte> good = *model_bytes(model);
+  std::size_t refused = 0;
+  for (std::size_t at = 32; at < good.size(); at += 4) {
+    std::vector<std::byte> bytes = good;
+    bytes[at] = static_cast<std::byte>(std::to_integer<unsigned>(bytes[at]) + 4);
+    const auto outcome = parse_model(mended(bytes), "hostile.wisp");
+    if (!outcome && outcome.error().message.find("has not one range a coordinate") != std::string::npos) ++refused;
   }
   EXPECT_GT(refused, 0u);
 }

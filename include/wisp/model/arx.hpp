@@ -67,15 +67,15 @@ struct ResampledResiduals {
   std::vector<std::int8_t> rows;    ///< rows × (outputs − across), row-major
   std::vector<std::uint32_t> ends;  ///< one past each stretch's last row, ascending; the last is the row count
   double wind_scale = 0;            ///< value of a stored 1 in `winds`, in the regressor's unit
-  std::vector<std::int16_t> winds;  ///< input samples: per stretch, first as many as the largest lag from before it,
+  std::vector<std::int16_t> winds;  ///< input samples: per stretch, those before it (as many as the largest lag),
                                     ///< then one per row
-  int toward = -1;                  ///< index of the regressor that holds the input; -1: none
+  int toward = -1;                  ///< index of the regressor that is the driving input; -1: none
   std::vector<int> lags;    ///< up to kMaxResampledLags lags, ascending from 0, ≤ 4096 steps; empty: no driving input
   double tolerance = 0;     ///< excess over the nearest row's distance that causes a jump, in the regressor's unit
   double margin = 0;        ///< difference at one lag below which inputs count as equal, in the regressor's unit
   int longest = 1;          ///< with a driving input, longest run of rows between jumps, 1 to 1 000 000 steps
-  std::vector<int> mirror;  ///< per column ±(1 + j): for input of the opposite sign, the residual in column j, with
-                            ///< this sign, replaces the column's own; empty: no mirror symmetry
+  std::vector<int> mirror;  ///< per column ±(1 + j): a row replayed for the negative of its recorded inputs has,
+                            ///< in this column, ± its residual of column j; empty: no mirror symmetry
   int across = 0;  ///< for 3-D bodies: the last `across` outputs are the z components of horizontal vectors, the
                    ///< `across` before them the x components. A row stores one number per vector, its component along
                    ///< the wind; the component across comes from a second row. Regressor `toward + 3` is the wind's z
@@ -117,15 +117,15 @@ struct ArxModel {
 /// Checks shapes, orders and finiteness. Errors name the coefficient or matrix and what was expected.
 Result<void> check(const ArxModel& model);
 
-/// Returns the outputs whose equations feed each other, directly or through others, as blocks of output indices.
-/// Different blocks simulate independently.
+/// Returns blocks of output indices. Two outputs are in one block if the equation of either has lags of the other,
+/// directly or through others. Different blocks simulate independently.
 ///
 /// Precondition: `na` is square.
 std::vector<std::vector<int>> coupled_outputs(const OrderMatrix& na);
 
 /// Returns the largest absolute eigenvalue of the companion matrix of A(q), with coefficients rounded to single
-/// precision as `run/` uses them: below 1 the model is stable. Returns 0 for a model without feedback. Blocks of
-/// outputs that do not feed each other are solved separately.
+/// precision as `run/` uses them: below 1 the model is stable. Returns 0 for a model without feedback. Each
+/// block of coupled_outputs() is solved separately.
 double spectral_radius(const ArxModel& model);
 
 }  // namespace wisp

@@ -8,7 +8,7 @@
 //   dh/dt =  −1 / recovery                             below it; h is never less than 0
 //
 // So a wind of exactly `level` blows the flame out in `seconds`, a stronger wind sooner; a shorter gust leaves the
-// flame alight, and gusts in close succession add up.
+// flame alight, and gusts in close succession add up. Banks limit the growth of h to 1/2 per step.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #pragma once
 // Record of a model's making: source recordings, recipe, scales, and quality.
 //
-// Programs may depend on the typed fields. Of `recipe` and `figures`, for people, they read only kCandleFigures.
+// Programs may depend on the typed fields. `recipe` and `figures` are for people: programs read only kCandleFigures.
 
 #include <array>
 #include <cstdint>
@@ -89,7 +89,7 @@ inline constexpr std::array<const char*, 4> kCandleFigures{"candle.width", "cand
 /// Record of how the model was made.
 struct Training {
   std::string program;               ///< name and version of the program that wrote it
-  std::vector<std::string> sources;  ///< file names of all recordings, gusts included
+  std::vector<std::string> sources;  ///< file names of all recordings, those of gusts included
   std::vector<Note> recipe;          ///< settings, given or chosen
   std::vector<Figure> figures;       ///< finite figures
   Usable usable;

@@ -126,11 +126,11 @@ class Bank {
   /// Sets the inputs of one instance: input_count() values. Returns false when `id` is not valid.
   bool set_inputs(InstanceId id, std::span<const float> values);
 
-  /// Sets the scale of the residual noise: 1 as learned, 0 none; clamped to [0, 10]. At 0 a step is cheaper, and a
-  /// switched model takes the likeliest transition. A segment chain has only random choices, no residual noise: at 0 it
-  /// takes the likeliest mode, and of this mode's segments the best-joining or, without a list of successors, the
-  /// first. Instances then differ by their initial heading alone, and their motion eventually becomes periodic. For a
-  /// chain, all scales above 0 have the same effect.
+  /// Sets the scale of the residual noise: 1 as learned, 0 none; clamped to [0, 10]. NaN and scales below 1e-6 count as
+  /// 0. At 0 a step is cheaper, and a switched model takes the likeliest transition. A segment chain has only random
+  /// choices, no residual noise: at 0 it takes the likeliest mode, and of this mode's segments the best-joining or,
+  /// without a list of successors, the first. Instances then differ by their initial heading alone, and their motion
+  /// eventually becomes periodic. For a chain, all scales above 0 have the same effect.
   void set_noise(float scale);
   float noise() const;
 

@@ -14,8 +14,8 @@ namespace wisp {
 /// Age of an event that never happened.
 inline constexpr std::chrono::nanoseconds kNever = std::chrono::nanoseconds::max();
 
-/// Burning and appearance of an instance. Ages are those of the displayed state, in the bank's time, which only steps
-/// advance; a renderer derives smoke and ember from them.
+/// Burning and appearance of an instance. Ages are those of the displayed state, in the bank's time, which only step()
+/// and advance() advance; a renderer derives smoke and ember from them.
 struct LitState {
   bool lit = true;
   float size = 1;  ///< apparent size, 0 … 1; outputs and polylines are already multiplied by it

@@ -13,8 +13,8 @@
 
 namespace wisp {
 
-// The step number that stands for never. In a restored bank, steps before it began wrap around to just below 2^64, so
-// this number is in the middle.
+// The step number that stands for never. In a restored bank, an event older than the bank has a negative step number,
+// which wraps around to just below 2^64; so "never" is 2^63, far from all step numbers.
 inline constexpr std::uint64_t kNeverInSteps = std::uint64_t{1} << 63;
 // Whether a block may make many steps before the next block makes its first. Builds for size make one step at a time,
 // and Steps then has no inputs and outputs.

@@ -129,7 +129,7 @@ ExtinctionCount count_extinction(const Model& model) {
   const ExtinctionProgram rule = make_extinction_program(model, unused);
   if (!rule.present) return {};
   const auto* outline = std::get_if<OutlineView>(&model.view);
-  const std::size_t recorded = outline && !rule.shapes.empty() ? outline->shape.count() : 0;
+  const std::size_t recorded = outline && !model.extinction->catching.scale.empty() ? outline->shape.count() : 0;
   CountingReal wind, harm, lit(1.0f), size(1.0f);
   std::vector<CountingReal> shown(model.outputs.size());
   const OperationCount burning = count([&] {

@@ -26,8 +26,8 @@ struct ExtinctionProgram {
   float recovery = 0;              ///< reduction of the damage per step in weaker wind
   float stirs = 0;                 ///< wind above which the replay of a re-ignition ends
   float join = 0;                  ///< per step of a re-ignition, reduction of the share of Bank::State::offset applied
-  std::span<float> sizes;          ///< kEventEnds; then for each event its sizes, and per step of its cross-over to the
-                                   ///< dynamics minus the share reached; the last is kEventEnds
+  std::span<float> sizes;          ///< kEventEnds; then for each event its sizes and, per step of its cross-over to the
+                                   ///< dynamics, the negated share reached, at last −1 = kEventEnds
   std::span<float> shapes;         ///< components in the plane for every size; empty: no event has shapes
   std::span<std::uint32_t> dying;  ///< start index of each event
   std::span<std::uint32_t> catching;  ///< start index of each event

@@ -113,7 +113,8 @@ template <int kBlocks, class Dynamics>
 std::uint64_t Bank::State::step_group(Dynamics& dynamics, int first, const Steps& made, int blocks) {
   std::uint64_t count_of_clamped = 0;
   if constexpr (kAhead && kBlocks == 1 && Dynamics::kGroup > 1) {
-    if (rows == 1 && made.count > 1 && !extinction.present && dynamics.steps_alone()) return step_alone(dynamics, made);
+    const bool lone = rows == 1 && visible == 1 && made.count > 1 && !extinction.present;
+    if (lone && dynamics.steps_alone()) return step_alone(dynamics, made);
   }
   std::uint32_t flags[kBlocks * kLanes];
   const int count = kAhead ? made.count : 1, last = first + blocks;
@@ -270,7 +271,7 @@ void Bank::State::play_event(int slot, const float* newest) {
 // Extinguishes an instance and stores its shape, to be drawn shrinking: the dynamics have not learned such strong wind.
 void Bank::State::go_out(int slot, const float* newest, std::uint64_t moment) {
   out_at[slot] = moment;
-  lit[slot] = 1.0f;  // as it was in the step before
+  lit[slot] = 1.0f;  // shape_in_event() then computes the shape of the burning flame
   for (std::size_t i = 0; i < moved(); ++i) {
     const float made = newest_of(slot, i, newest);
     offset_of(slot, i) = event[slot] == kNoEvent ? made : shape_in_event(slot, i, made, 1.0f);

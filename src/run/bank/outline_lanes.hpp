@@ -18,7 +18,7 @@ namespace wisp {
 inline constexpr std::uint32_t kLongestRun = 8;
 
 /// Consecutive points in one knot span. The first point and the differences after it are weighted sums of the span's
-/// slope, of the bends at its two ends, and of its twist.
+/// slope, of the bends at its two ends, and of its twist (defined at PolylineProgram).
 struct PolylineRun {
   std::uint32_t points;
   std::uint32_t control;  ///< index of the control point to which the weights of the first point add

@@ -26,7 +26,7 @@ class ChainChoice {
     const std::uint32_t* threshold = program.threshold.data() + state * modes;
     if (!chance_) return likeliest(threshold, modes);
     std::uint32_t mode = 0;
-    while (mode + 1 < modes && !(words.mode < threshold[mode])) ++mode;
+    while (threshold[mode] != 0xffffffffU && !(words.mode < threshold[mode])) ++mode;
     return mode;
   }
 

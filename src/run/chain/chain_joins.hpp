@@ -238,8 +238,8 @@ class ChainJoins {
     return out;
   }
 
-  // Adds to each step 1/`steps` of the way to the segment's recorded height, at most max_return: otherwise the velocity
-  // offsets of joins would add up to an unbounded random walk.
+  // Adds to each step 1/`steps` of the difference from the segment's recorded height, clamped to ±max_return. Without
+  // this return, the velocity offsets of joins would add up to an unbounded random walk of the height.
   void lead_back(const Segments& segments, const Values& height, const Segments& steps, Curves& curves) const {
     if (program_.height.empty()) return;
     Real recorded[kLanes], share[kLanes];

@@ -65,7 +65,7 @@ class ChainStepper : private ChainLives<N> {
   /// Returns the address for the step's regressors: [regressor][lane].
   Real* regressors(int block) { return regressors_.data() + static_cast<std::size_t>(block) * regressor_row_; }
 
-  /// Largest number of blocks that step() takes at once, so that among their lanes several vectors full join in a step.
+  /// Largest number of blocks that step() takes at once: enough that the lanes that join in one step fill vectors.
   static constexpr int kGroup = 32;
   static constexpr bool kGroupsVary = true;
 
@@ -220,7 +220,7 @@ class ChainStepper : private ChainLives<N> {
       visit_difference(*numbers, visit);
     for (auto* numbers : {&life.ahead.gap.slip, &life.slip[0], &life.slip[1], &life.laid})
       visit_difference(*numbers, visit);
-    visit(life.settled, -1.0f, 2.0f);
+    visit(life.settled, -1.0f, kMaxSlip);
     visit(life.left, 0.0f, kMaxSlip, 1.0f);
     steered_ |= can_steer() && life.left > Real(0.0f);
     for (Real& x : life.target) visit(x, -kFarthest, kFarthest);
@@ -290,7 +290,7 @@ class ChainStepper : private ChainLives<N> {
     return program;
   }
 
-  // Returns the unit of the wind's x, y and z: that of the range that includes theirs.
+  // Returns the channel unit common to the wind's x, y and z: that of the smallest range that includes their ranges.
   static double wind_unit(const Model& model) {
     if (model.inputs.empty()) return 1;
     double lowest = 0, highest = 0;

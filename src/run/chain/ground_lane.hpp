@@ -35,7 +35,7 @@ inline std::optional<Real> reach_touching(const ChainProgram& program, const Rea
   return reach;
 }
 
-/// Starts the settling of a lane whose body has reached the ground with these rates.
+/// Starts the settling of a lane whose body, of this pose and these rates, has reached the ground.
 template <class Real>
 inline void touch(ChainLane<Real>& lane, const BodyState<Real>& body, float ground) {
   lane.settled = Real(0.0f);

@@ -167,8 +167,8 @@ struct OnePart : N {
   static constexpr int kParts = 1;
 };
 
-/// The number types of N with as many lanes as one machine vector; without vectors N itself, with the lanes of a block,
-/// whose functions are compiled anyway.
+/// The number types of N with as many lanes as one machine vector. On machines without vectors N itself, with the lanes
+/// of a block: functions on N are compiled anyway, so no further code is generated.
 template <class N>
 using PartNumbers = std::conditional_t<(N::kPartLanes > 1), OnePart<N>, N>;
 
@@ -376,8 +376,8 @@ inline auto number_or(const Pack<Part, kParts>& value, const Pack<Part, kParts>&
   return each([](const Part& x, const Part& y) { return x == x ? x : y; }, value, other);
 }
 
-/// State below kMinState in magnitude is set to zero, and so are coefficients below kMinCoefficient. Their products are
-/// multiples of 2^−123, no sum is denormal, and an engine that flushes denormals gets the same numbers.
+/// State below kMinState in magnitude is set to zero, and so are coefficients below kMinCoefficient. Their rounded
+/// products are multiples of 2^−123, so no sum is denormal, and an engine that flushes denormals gets the same numbers.
 inline constexpr float kMinState = 1e-20f;
 inline constexpr float kMinCoefficient = 1e-10f;
 

@@ -24,7 +24,7 @@ class ChannelHistory {
   /// Advances every block's history by `samples`; the newest sample is then still to be computed.
   void turn(int samples = 1) { ring_.turn(samples); }
 
-  /// Returns whether blocks should be prefetched before they are stepped: true if all of them exceed kNearBytes.
+  /// Returns whether blocks should be prefetched before they are stepped: true if the ring exceeds kNearBytes in total.
   bool is_far() const { return ring_.bytes() > kNearBytes; }
   void fetch(int block) const { ring_.fetch(block); }
 

@@ -164,12 +164,13 @@ Result<void> check_channels(const Model& model, const OperatingPoint& point) {
   }
   std::size_t next = 0;
   for (const Input& input : model.inputs) {
-    const double mean = point.regressors[next];
     const auto means = point.regressors.subspan(next, static_cast<std::size_t>(regressor_count(input.shape)));
     if (is_vector(input.shape) && std::any_of(means.begin(), means.end(), [](double one) { return one != 0; })) {
       return Error{"input " + input.name + " is of a vector and has a mean, expected 0"};
     }
-    if (auto ok = check_channel("input " + input.name, input.lowest, input.highest, mean); !ok) return ok;
+    for (const double mean : means) {
+      if (auto ok = check_channel("input " + input.name, input.lowest, input.highest, mean); !ok) return ok;
+    }
     next += means.size();
   }
   return {};

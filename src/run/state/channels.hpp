@@ -79,7 +79,7 @@ struct OperatingPoint {
 /// Takes the channels' arrays from the arena and, unless the arena only measures, fills them.
 Channels make_channels(const Model& model, const OperatingPoint& point, Arena& arena);
 
-/// Errors: a range or mean too large or small for single precision, a reversed range, a vector's input with a mean.
+/// Errors: a range or mean too large or small for single precision, a reversed range, a nonzero mean of a wind vector.
 Result<void> check_channels(const Model& model, const OperatingPoint& point);
 
 /// Hashes the channels, continuing from the hash `before`.

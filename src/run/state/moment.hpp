@@ -1,5 +1,5 @@
 #pragma once
-// Inputs of a step besides the state, for every kind of dynamics.
+// Arguments of a step of any kind of dynamics: random keys and counters, clamp flags, number of lanes in use.
 
 #include "run/lanes/random_lanes.hpp"
 

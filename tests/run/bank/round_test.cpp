@@ -304,6 +304,14 @@ TEST(InTheRound, WhatIsNoFlameOfTwoKindsOrHasHalfAVectorIsRefused) {
   Model few = round;
   std::get<ArxModel>(few.dynamics).noise.resampled.across -= 1;
   EXPECT_FALSE(check(few));
+  Model torn = undriven(shipped_flame());
+  auto& rows = std::get<ArxModel>(torn.dynamics).noise.resampled;
+  rows.across = 1, rows.scale.pop_back();
+  rows.rows.resize(rows.row_count() * rows.scale.size());
+  EXPECT_FALSE(check(torn));
+  Model wide = round;
+  wide.inputs[1].lowest *= 2, wide.inputs[1].highest *= 2;
+  EXPECT_FALSE(check(wide));
   Model meant = round;
   std::get<ArxModel>(meant.dynamics).input_mean[7] = 0.1;
   EXPECT_FALSE(Bank::create(meant));

@@ -78,6 +78,29 @@ TEST(ShapeLanes, ABankShowsTheShapeOfItsComponents) {
   EXPECT_GT(farthest, 0.02);
 }
 
+TEST(ShapeLanes, ManyStepsOfOneComponentGiveControlPoints) {
+  Model model = shaped_model();
+  ShapeComponents& shape = std::get<OutlineView>(model.view).shape;
+  shape.symmetric = 1, shape.antisymmetric = 0, shape.basis.resize(5), shape.components = {{-4, 4}};
+  ArxModel arx;
+  arx.orders = {OrderMatrix(1, 1, 1), OrderMatrix(1, 6, 1), OrderMatrix(1, 6)};
+  arx.theta = {{-0.8, 0.05, 0.05, 0.05, 0.05, 0.05, 0.05}};
+  arx.constant = arx.output_mean = {0};
+  arx.input_mean.assign(6, 0.0);
+  arx.noise.sd = {0.5};
+  model.dynamics = arx;
+  auto many = Bank::create(model), single = Bank::create(model);
+  ASSERT_TRUE(many && single);
+  many->spawn(), single->spawn();
+  std::vector<float> all(40), one(10);
+  many->step(4, {}, all);
+  for (std::size_t t = 0; t < 4; ++t) {
+    single->step();
+    single->outputs(single->at(0), one);
+    for (std::size_t k = 0; k < 10; ++k) EXPECT_EQ(all[10 * t + k], one[k]) << t;
+  }
+}
+
 TEST(ShapeLanes, WhatGoesOutShrinksAsItWasAndIsRestored) {
   const Model model = shaped_model(true);
   auto bank = Bank::create(model, {});

@@ -17,5 +17,13 @@ TEST(ChainChoice, OfModesThatAreAsLikelyTheFirstIsTaken) {
   EXPECT_EQ(choice.mode(program, 0, {}), 1U);
 }
 
+TEST(ChainChoice, AModeWithoutProbabilityIsNeverDrawn) {
+  std::array<std::uint32_t, 2> threshold{0xffffffffU, 0xffffffffU};
+  ChainProgram program;
+  program.modes = 2;
+  program.threshold = threshold;
+  EXPECT_EQ(ChainChoice().mode(program, 0, {0xffffffffU, 0}), 0U);
+}
+
 }  // namespace
 }  // namespace wisp::chain_choice_test

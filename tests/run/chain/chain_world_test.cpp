@@ -87,6 +87,13 @@ TEST(ChainWind, WhatItDoesDoesNotHangOnItsRange) {
   }
 }
 
+TEST(ChainWind, OfThreeRangesIsRefused) {
+  Model askew = windy_chain();
+  askew.inputs[2].highest = 100;
+  askew.inputs[2].lowest = -100;
+  EXPECT_FALSE(check(askew));
+}
+
 TEST(ChainWind, IsSavedAndRestoredInMidGust) {
   Model model = windy_chain();
   auto& gust = *std::get<ChainModel>(model.dynamics).gust;
@@ -170,6 +177,17 @@ TEST(ChainGround, IsSavedAndRestored) {
   }
   EXPECT_EQ(pose_of(other), pose_of(bank));
   EXPECT_EQ(pose_of(other)[2], -0.5f);
+}
+
+TEST(ChainGround, ARestingBodyOfASlowChainIsRestored) {
+  Model slow = sample_chain();
+  slow.rate_hz = 1;
+  Bank bank = bank_of(slow), other = bank_of(slow);
+  bank.chain()->set_ground(1.0f);  // above the start: touched in the first step
+  bank.step(3);
+  std::vector<std::byte> saved(bank.save_bytes());
+  bank.save(saved);
+  EXPECT_TRUE(other.restore(saved));
 }
 
 TEST(ChainGround, NothingJumpsWhereItTouches) {
