@@ -1,4 +1,4 @@
-// Predictions of a model on a recording, as numbers.
+// predict(): the predictions of a recording by a model, row by row, with 95 % intervals.
 
 #include <algorithm>
 #include <cmath>

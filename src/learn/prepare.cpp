@@ -25,7 +25,7 @@ constexpr std::pair<const char*, double Preparation::*> kFrequencies[] = {{"high
 // One pass of a second-order Butterworth filter.
 class Filter {
  public:
-  // Cutoff: −3 dB after two passes at `share` of the rate.
+  // `share`: frequency that two passes together attenuate by 3 dB, as a share of the sampling rate.
   Filter(double share, bool high) : gain_(high ? 0 : 1) {
     const double two_passes = std::pow(std::numbers::sqrt2 - 1, high ? 0.25 : -0.25);
     const double k = std::tan(std::numbers::pi * share) * two_passes;
@@ -52,7 +52,7 @@ class Filter {
   double a_[2], b_[3];
 };
 
-// Filters forward and backward; point reflection extends the ends by three periods of the cutoff. Means are kept.
+// Filters forward and backward, keeping the mean. Point reflection extends both ends by three cutoff periods.
 void filter(Samples& x, double share, bool high) {
   const auto rows = x.size(), more = std::min(rows - 1, static_cast<std::size_t>(3 / share) + 1);
   const double level = high ? mean(x) : 0;

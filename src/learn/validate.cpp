@@ -66,7 +66,7 @@ double fit_percent(const std::vector<double>& measured, const std::vector<double
     error += (measured[row] - predicted[row]) * (measured[row] - predicted[row]);
     spread += (measured[row] - mean) * (measured[row] - mean);
   }
-  return spread > 0 ? 100 * (1 - std::sqrt(error / spread)) : 0;
+  return spread > 1e-24 * mean * mean * static_cast<double>(rows.size()) ? 100 * (1 - std::sqrt(error / spread)) : 0;
 }
 
 // Outputs of any of the models, in order of first appearance.

@@ -16,7 +16,7 @@ enum class RemarkKind {
   kSentinel,    ///< a number that stands for a missing sample, such as −999
   kOutliers,    ///< single samples far from their neighbours
   kConstant,    ///< a channel that never changes
-  kRedundant,   ///< a linear function of another channel; for inputs, also of earlier samples of another channel
+  kRedundant,   ///< a linear function of another channel; for inputs, also of earlier samples of another input
   kMissing,     ///< more than a tenth of the samples are missing
   kShort,       ///< fewer than 50 rows
   kExcitation,  ///< an input that changes only one to three times

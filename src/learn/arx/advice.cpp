@@ -50,7 +50,8 @@ struct Subject {
   std::string place_of(const std::string& name, std::size_t row) const {
     for (const Recording& one : recordings) {
       const std::size_t rows = find(one, name) ? one.rows() : 0;
-      if (row < rows) return std::to_string(row + 1) + (recordings.size() > 1 ? " of " + one.source : "");
+      if (row < rows)
+        return std::to_string(one.first_row + row + 1) + (recordings.size() > 1 ? " of " + one.source : "");
       row -= rows;
     }
     return {};
@@ -63,7 +64,7 @@ struct Subject {
   }
 };
 
-// Returns the unit of the last decimal of the first 500 samples, 1 to 1e-9; 0 where more decimals are used.
+// Returns the last decimal place that the first 500 samples use, from 1 to 1e-9; 0 where they use more decimals.
 double last_digit(const Series& all) {
   double unit = 1;
   for (int digits = 0; digits <= 9; ++digits, unit /= 10) {
@@ -292,7 +293,7 @@ std::optional<Recording> without_drift(const Subject& subject, const std::string
   return recording;
 }
 
-// Adds remarks on outputs that integrate or drift. After detrending, only the former still have poles at 1.
+// Adds remarks on outputs that integrate or drift. After detrending, only outputs that integrate have poles at 1.
 void look_for_wandering(const Subject& subject, std::vector<Remark>& out) {
   for (const std::string& output : subject.outputs) {
     double drift = 0;

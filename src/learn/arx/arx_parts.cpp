@@ -111,7 +111,7 @@ Result<void> take_rows(const Recording& recording, const RowPart& part, PartStat
 
 // Adds rows of a table, counted from the reader's position, chunk by chunk. Returns the number of rows.
 Result<std::size_t> take_table(CsvReader& reader, const RowPart& part, PartState& state) {
-  // Keeps one row more than the history: otherwise the rest of a continuing episode would count as skipped.
+  // Keeps one row more than the history: plan_part() would count an episode cut to fewer rows as too short.
   const auto kept = static_cast<std::size_t>(state.orders.history()) + 1;
   const std::size_t before = std::min(kept, part.begin);
   Recording window = reader.header();
@@ -239,6 +239,7 @@ Result<ArxPart> ArxPart::create(const ArxRecipe& recipe) {
 Result<void> ArxPart::add(const Recording& recording, const TableShare& share) {
   const std::size_t left = recording.rows() - std::min(share.first, recording.rows());
   const std::size_t rows = share.rows == arx::kAllRows ? left : share.rows;
+  if (recording.rows() == 0) return Error{recording.source + ": has no rows"};
   if (left == 0 || rows > left) return arx::beyond(recording.source, share);
   const std::size_t end = share.first + rows;
   PartState own(state_->names, state_->orders);

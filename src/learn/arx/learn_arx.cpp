@@ -24,7 +24,7 @@ std::vector<Note> notes_of(const ArxRecipe& recipe, const ArxFit& fit) {
   const bool apart = coupled_outputs(na).size() == static_cast<std::size_t>(na.rows());
   std::vector<Note> notes =
       order_notes(fit.model.orders, apart && na.rows() > 1 ? Coupling::kDiagonal : recipe.coupling);
-  const auto& levels = fit.model.constant;  // non-zero also without recipe.offset, if the focus chose a kernel
+  const auto& levels = fit.model.constant;  // focus_fit() and fit_integrators() may set kEstimate for other offsets
   const bool level = std::any_of(levels.begin(), levels.end(), [](double one) { return one != 0; });
   notes.push_back({"offset", std::string(word_of(level ? ArxOffset::kEstimate : recipe.offset))});
   if (recipe.kernel == ArxKernel::kTc) notes.push_back({"kernel", "tc"});
@@ -42,7 +42,12 @@ Result<ArxOrders> searched(std::span<const Recording> recordings, const ArxRecip
                               .by = asked.by,
                               .steps = asked.steps,
                               .offset = recipe.offset};
-  const auto search = search_orders(recordings, asked.validation, channels, options, progress);
+  std::vector<Recording> validation = asked.validation;
+  if (validation.size() > 1 && recipe.offset == ArxOffset::kMean) {
+    if (const auto found = gather_signals(validation, channels, recipe.offset); !found) return found.error();
+    validation = about_own_levels(validation, channels);
+  }
+  const auto search = search_orders(recordings, validation, channels, options, progress);
   if (!search) return search.error();
   add_search(*search, channels.outputs, asked.by, report);
   return search->candidates[search->best].orders;
@@ -108,7 +113,7 @@ Fit finish(const ArxFit& fit, const ArxRecipe& recipe, const ChannelChoice& chan
 
 namespace {
 
-// Recordings prepared for learning. With offset kMean, each of several is shifted to the means over all recordings.
+// Recordings prepared for learning. With offset kMean, several recordings are all shifted to their common means.
 struct Prepared {
   std::vector<Recording> moved{};
   std::span<const Recording> seen;

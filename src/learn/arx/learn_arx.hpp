@@ -33,10 +33,9 @@ namespace arx {
 
 ArxOptions fit_options(const ArxRecipe& recipe, const ArxOrders& orders);
 
-/// Returns the number of poles at 1 per output, 0 to 2; empty where no output has any, or without inputs. Outputs
-/// coupled to others have none. A pole counts if it improves the free-run fit by over 2 percentage points and if fixing
-/// it at 1 either passes the Dickey–Fuller test (5 %) or leaves a one-step fit above 99.9 %. `plain`: fit_arx() with
-/// the same options.
+/// Number of poles at 1 per output, 0 to 2; empty where no output has any, or without inputs. Outputs coupled to others
+/// have none. A pole counts if it improves the free-run fit by over 2 percentage points and fixing it at 1 either
+/// passes the Dickey–Fuller test (5 %) or leaves a one-step fit above 99.9 %. `plain`: fit_arx(), same options.
 std::vector<int> find_integrators(std::span<const Recording> recordings, const ChannelChoice& channels,
                                   const ArxOptions& options, const ArxFit& plain);
 
@@ -64,7 +63,7 @@ std::optional<PastEffect> effect_of_past(std::span<const Recording> recordings, 
                                          const std::vector<std::vector<LaggedChannel>>& sets, int own_lags = 20);
 
 /// Returns a remark on the first output that at least 3 of 10 far delayed copies of the inputs explain about as well as
-/// the inputs do. Ramps and sines fit at every delay: no recording shows whether they are the cause.
+/// the inputs do. Ramps and sines fit at every delay, so the recording does not show whether the inputs are the cause.
 std::optional<Remark> coincidence(std::span<const Recording> recordings, const ChannelChoice& channels,
                                   const ArxOrders& orders);
 

@@ -11,7 +11,7 @@
 namespace wisp::arx {
 namespace {
 
-constexpr double kMinRange = 1e-120;  // minimum range, 1 / maximum magnitude of a channel; keeps squares in range
+constexpr double kMinRange = 1e-120;  // minimum range of a channel; 1 / this: maximum magnitude. Keeps squares in range
 
 ChannelSpan span_of(const std::string& name, std::span<const Recording> recordings) {
   ChannelSpan span;

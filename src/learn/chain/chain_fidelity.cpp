@@ -289,8 +289,14 @@ Result<ChainFidelity> chain_fidelity(const Model& model, std::span<const Recordi
     return Error{real.front().source + ": has " + std::to_string(seen->rate_hz) + " rows a second, the model " +
                  std::to_string(model.rate_hz) + ": resample the recording"};
   }
+  if (seen->has_orientation != std::holds_alternative<PoseView>(model.view))
+    return Error{real.front().source + ": either it or the model has orientation, expected both or neither"};
   auto cut = segment(*seen, real, options.segmentation);
   if (!cut) return cut.error();
+  const std::string& signal = options.segmentation.event.signal;
+  bool played_too = signal.ends_with("speed");
+  for (const Output& output : model.outputs) played_too |= output.name == signal;
+  if (!played_too) return Error{"falls cut at events of " + signal + " cannot be judged: the model does not play it"};
   std::size_t longest = 0;
   for (const MotionPiece& piece : seen->pieces) longest = std::max(longest, piece.rows());
   const int falls = static_cast<int>(seen->pieces.size()) * kSynthesizedPerReal;

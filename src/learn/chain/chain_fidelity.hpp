@@ -33,7 +33,6 @@ struct JoinDefect {
 std::vector<Stretch> motion_series(const Motion& motion, std::span<const Segment> segments);
 
 /// Adjacent windows of `rows` rows: mean, deviation, minimum and maximum of every column, with ±0.2° of noise for tilt.
-///
 /// Precondition: rows >= 2.
 FeatureWindows series_windows(std::span<const Stretch> series, std::size_t rows);
 
@@ -65,8 +64,7 @@ struct ChainFidelity {
   double window_seconds = 0;
 };
 
-/// Falls made by a model, as recordings at its rate. For a chain also the rows of each fall at which a segment was
-/// joined, and the mode of every row.
+/// Falls made by a model, as recordings at its rate; for a chain also each fall's rows of joins and every row's mode.
 struct MadeFalls {
   std::vector<Recording> falls;
   std::vector<std::vector<std::size_t>> joins;
@@ -76,9 +74,8 @@ struct MadeFalls {
 /// Makes `falls` falls of `rows` rows each. Errors: as Bank::create().
 Result<MadeFalls> made_falls(const Model& model, int falls, std::size_t rows, std::uint64_t seed);
 
-/// Compares falls that the model makes with recorded ones, which should be unseen in training.
-/// Distances are NaN where a side has fewer than two windows.
-/// Errors: as motion_of() and segment(); a view other than pose or position; rates that differ.
+/// Compares falls that the model makes with recorded ones (to be unseen in training). Distances are NaN where a side
+/// has under two windows. Errors: as motion_of() and segment(); a view other than pose or position; rates that differ.
 Result<ChainFidelity> chain_fidelity(const Model& model, std::span<const Recording> real,
                                      const ChainFidelityOptions& options);
 

@@ -31,7 +31,7 @@ struct Way {       // a displacement in metres
 struct Next {
   std::size_t segment;
   double probability;
-  Complex turn;  // unit number: rotation about z that joins the segment
+  Complex turn;  // unit complex number: rotation about z that joins the segment
 };
 
 class Walk {
@@ -121,7 +121,7 @@ class Walk {
   std::vector<std::vector<Next>> next_;
 };
 
-// Returns the expected displacement after each segment, less `drift`; `memory` receives the seconds until half of it.
+// Returns each segment's lead: the expected displacement after it minus drift × time. `memory`: seconds to half of it.
 std::vector<Way> leads_of(const Walk& walk, const Way& drift, const std::vector<double>& visits, double& memory) {
   std::vector<Way> lead(walk.size());
   std::vector<double> size;  // root mean square over ground after each iteration

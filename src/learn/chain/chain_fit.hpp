@@ -1,9 +1,8 @@
 #pragma once
-// Learns a segment chain from recorded motion: segments between events are described, clustered into modes, counted and
-// stored. Source: L.-M. Reissell and D. K. Pai (2001), sections 2.2 and 4.
+// Learns a segment chain from recorded motion: cuts it into segments at events, clusters them into modes, counts the
+// modes' transitions and stores the segments. Source: L.-M. Reissell and D. K. Pai (2001), sections 2.2 and 4.
 //
-// Departure where orientation is known and no modes are requested: a segment is followed by one of the segments that
-// join it best.
+// Departure if orientation is known and no modes are requested: a segment is followed by one of the best-joining ones.
 
 #include <cstddef>
 #include <cstdint>
@@ -31,8 +30,7 @@ struct ChainSummary {
   std::vector<double> transitions;  ///< modes × modes
   double mean_segment_seconds = 0;
   double silhouette = 0;
-  double log_likelihood = 0;  ///< nats per segment, of held-out mode sequences (of the learned ones where nothing was
-                              ///< held out)
+  double log_likelihood = 0;  ///< nats per segment, of held-out mode sequences (without any, of the learned ones)
   std::vector<std::string> warnings;
 };
 
@@ -45,9 +43,8 @@ struct ChainFit {
                                       ///< skipped between stretches: n + 1 continues n in the recording
 };
 
-/// Fits a chain to falls. Gusts are learned separately.
-/// Errors: as check_fields(), motion_of(), segment(), k_means(), system_segments(), half_segments(); fewer segments
-/// than modes; kStopped.
+/// Fits a chain to falls. Gusts are learned separately. Errors: as check_fields(), motion_of(), segment(), k_means(),
+/// system_segments(), half_segments(); fewer segments than modes; kStopped.
 Result<ChainFit> fit_chain(std::span<const Recording> recordings, const ChainRecipe& recipe,
                            const Progress& progress = {});
 

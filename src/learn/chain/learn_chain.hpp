@@ -14,10 +14,9 @@
 
 namespace wisp {
 
-/// Learns a chain, with its gust response where two of the recordings are a pair, and judges it on the held-out
-/// stretches (on the training stretches where nothing was held out).
-/// Errors, with the file's name: as check_motion(); an invalid pair, or a pair without other falls; no event, or fewer
-/// segments than modes; a recipe out of range; stopped by `progress`.
+/// Learns a chain, with its gust response where two recordings are a pair, and judges it on the held-out stretches
+/// (without any, on the training stretches). Errors, with the file's name: as check_motion(); an invalid pair, or a
+/// pair without other falls; no event, or fewer segments than modes; a recipe out of range; stopped by `progress`.
 Result<Fit> learn_chain(std::span<const Recording> recordings, const ChainRecipe& recipe,
                         const Progress& progress = {});
 

@@ -129,8 +129,8 @@ class Chooser {
     return {};
   }
 
-  /// Chooses a candidate per block: one surely better than least squares or, with `leave_least_squares`, better by
-  /// kWorthIt. Returns whether any block could be judged.
+  /// Chooses per block the last candidate whose error is kWorthIt below the best before it and, unless
+  /// `leave_least_squares`, surely_better() than least squares. Returns whether any block could be judged.
   bool choose(bool leave_least_squares) {
     bool judged = false;
     for (Block& block : blocks_) {

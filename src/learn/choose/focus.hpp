@@ -52,9 +52,7 @@ struct FocusedFit {
 /// surely_better() than least squares, from fitted states and in the sum; 30 lags are tried only where a kernel is
 /// already chosen. Returns `plain` with the reason for kPrediction, without inputs or feedback, without stabilisation,
 /// where the data do not determine all coefficients, or where too few rows can be held out. Errors: as fit_arx,
-/// kStopped.
-///
-/// Precondition: `plain` is fit_arx() of the same arguments.
+/// kStopped. Precondition: `plain` is fit_arx() of the same arguments.
 Result<FocusedFit> focus_fit(std::span<const Recording> recordings, const ChannelChoice& channels,
                              const ArxOptions& options, ArxFit plain, ArxFocus focus, const Progress& progress);
 

@@ -245,6 +245,8 @@ Result<OrderSearch> search_orders(std::span<const Recording> estimation, std::sp
   }
   std::optional<Signals> other;
   if (!validation.empty()) {
+    if (std::abs(validation.front().rate_hz / estimation.front().rate_hz - 1) > 1e-3)
+      return Error{validation.front().source + ": has another rate than the recordings to learn from; resample it"};
     auto gathered = validation_signals(validation, channels, *signals, options.offset);
     if (!gathered) return gathered.error();
     other = std::move(*gathered);

@@ -50,10 +50,9 @@ struct OrderSearch {
 };
 
 /// Fits and judges all candidates. A row with a missing sample in the longest history is skipped for all candidates.
-/// Memory grows with the longest lag, not with the number of candidates.
-/// `validation` may be empty unless the criterion is kValidation.
-/// Errors: as fit_arx; a constant channel; more than a million candidates; ranges or steps out of bounds; too few rows
-/// for a candidate or its validation; kStopped.
+/// Memory grows with the longest lag, not with the number of candidates. `validation` may be empty unless the criterion
+/// is kValidation. Errors: as fit_arx; a constant channel; more than a million candidates; ranges or steps out of
+/// bounds; too few rows for a candidate or its validation; kStopped.
 Result<OrderSearch> search_orders(std::span<const Recording> estimation, std::span<const Recording> validation,
                                   const ChannelChoice& channels, const SearchOptions& options = {},
                                   const Progress& progress = {});

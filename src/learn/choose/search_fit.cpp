@@ -16,7 +16,7 @@ constexpr double kMaxRounding = 1e-10;
 // Minimum pivot, as a share of a column's square: below it the column is nearly a combination of the columns before it,
 // and the triangle is used instead of the Gram matrix.
 constexpr double kMinPivot = 1e-9;
-constexpr double kDependent = 1e-10;  // share of a column's norm up to which its regression on others leaves rounding
+constexpr double kDependent = 1e-10;  // a column counts as dependent if others leave a smaller share of its norm
 
 std::optional<Eigen::MatrixXd> products(const Eigen::MatrixXd& gram, const Eigen::MatrixXd& annihilator) {
   const Eigen::MatrixXd half = gram.selfadjointView<Eigen::Upper>() * annihilator;

@@ -10,9 +10,8 @@
 
 namespace wisp {
 
-/// Gram matrices of a layout, one per window. The window of a first sample from `earliest` to `latest` has the rows of
-/// every episode from that sample on. Columns are 0 in rows before their lag: in windows that begin before a column's
-/// lag its products must not be used.
+/// Gram matrices of a layout, one per window: the rows of every episode from a first sample (`earliest` to `latest`)
+/// on. Columns are 0 in rows before their lag: in windows that begin earlier, a column's products must not be used.
 class SearchWindows {
  public:
   /// Preconditions: `signals` and `layout` outlive the windows; layout.history() <= latest; 0 <= earliest <= latest.
@@ -49,8 +48,7 @@ struct CandidateFit {
 CandidateFit fit_candidate(SearchWindows& windows, int first_sample, const LagLayout& layout,
                            const std::vector<SharedRows>& rows);
 
-/// Matrix T of the residuals of the columns `tail` in a regression on the columns `base`: |T v|² is the sum of squares
-/// of the residuals of tail·v.
+/// Matrix T of columns `tail` after regression on columns `base`: |T v|² is the sum of squared residuals of tail·v.
 Eigen::MatrixXd left_by(SearchWindows& windows, int first_sample, const std::vector<int>& base,
                         const std::vector<int>& tail);
 

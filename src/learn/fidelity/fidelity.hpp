@@ -17,7 +17,7 @@ namespace wisp {
 
 struct FidelityOptions {
   std::vector<std::string> channels;  ///< channels to compare; empty: all outputs of the first real recording
-  std::size_t welch_samples = 64;     ///< even, at least 16; reduced to the longest stretch of a half or the play
+  std::size_t welch_samples = 64;     ///< even, at least 16; at most the longest stretch of each half and of the play
   std::size_t max_windows = 500;      ///< ≥ 2, maximum on each side
   std::uint64_t seed = 1;
 };
@@ -53,9 +53,8 @@ struct Fidelity {
 };
 
 /// Compares synthesized recordings with real ones, which should be unseen in training. Synthesized stretches are cut to
-/// the length of the longest real one, so that windows are comparable.
-/// Errors: no recordings, a channel missing from one, rates that differ, fewer than 16 consecutive complete rows in
-/// either half of the real or in the synthesized data.
+/// the longest real one's length, so that windows are comparable. Errors: no recordings, a channel missing from one,
+/// rates that differ, fewer than 16 consecutive complete rows in either half of the real or in the synthesized data.
 Result<Fidelity> fidelity(std::span<const Recording> real, std::span<const Recording> synthesized,
                           const FidelityOptions& options = {});
 

@@ -38,17 +38,14 @@ struct Stretch {
   void add(std::span<const double> row) { values.insert(values.end(), row.begin(), row.end()); }
 };
 
-/// The maximal stretches of a recording over the named channels, in order.
-/// Errors: a channel missing from the recording.
+/// The maximal stretches of a recording over the named channels, in order. Errors: a missing channel.
 Result<std::vector<Stretch>> stretches_of(const Recording& recording, std::span<const std::string> channels);
 
 std::vector<std::vector<double>> channel_of(std::span<const Stretch> stretches, std::size_t channel);
 
 std::size_t total_rows(std::span<const Stretch> stretches);
 
-/// Cuts longer stretches into pieces of `max_rows` rows; a shorter remainder is kept.
-///
-/// Precondition: max_rows >= 1.
+/// Cuts longer stretches into pieces of `max_rows` rows; a shorter remainder is kept. Precondition: max_rows >= 1.
 std::vector<Stretch> cut_to(std::span<const Stretch> stretches, std::size_t max_rows);
 
 /// Stretches before and after half of all rows; a stretch across that point is cut in two.
@@ -72,9 +69,7 @@ struct FeatureWindows {
 };
 
 /// Cuts stretches into windows of `rows` rows that start every `hop` rows; the features are the rows themselves and
-/// their differences from the row before.
-///
-/// Precondition: rows >= 1, hop >= 1.
+/// their differences from the row before. Precondition: rows >= 1, hop >= 1.
 FeatureWindows motion_windows(std::span<const Stretch> stretches, std::size_t rows, std::size_t hop);
 
 /// At most `most` of the windows, equally spaced.
@@ -99,21 +94,15 @@ struct LongDistances {
 };
 
 /// Compares two sides, by at most 300 windows of each. Motion windows keep every n-th row, with the largest n that
-/// leaves 15 rows a second; spectra cover faster motion.
-///
-/// Precondition: both sides have the same channels.
+/// leaves 15 rows a second; spectra cover faster motion. Precondition: both sides have the same channels.
 LongDistances long_distances(std::span<const Stretch> a, std::span<const Stretch> b, double rate_hz);
 
-/// Cuts stretches into windows of `rows` rows that start every `hop` rows. Features are logarithms of the power in at
-/// most 13 geometric bands per channel, after removing the mean and applying a Hann window.
-///
-/// Precondition: rows >= 8 and even, hop >= 1.
+/// Windows of `rows` rows that start every `hop` rows. Features are logarithms of the power in at most 13 geometric
+/// bands per channel, after removing the mean and applying a Hann window. Precondition: rows >= 8 and even, hop >= 1.
 FeatureWindows spectral_windows(std::span<const Stretch> stretches, std::size_t rows, std::size_t hop);
 
 /// Number of rows of the longest run in `synthesized` that repeats consecutive rows of `real`: every channel within
-/// `tolerance` standard deviations (over `real`).
-///
-/// Precondition: both sides have the same channels; tolerance >= 0.
+/// `tolerance` standard deviations (over `real`). Precondition: both sides have the same channels; tolerance >= 0.
 std::size_t longest_verbatim_run(std::span<const Stretch> real, std::span<const Stretch> synthesized, double tolerance);
 
 }  // namespace wisp

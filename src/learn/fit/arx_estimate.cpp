@@ -162,7 +162,7 @@ SharedProblem problem_of(const SharedRows& rows, const std::vector<double>& scal
   return problem;
 }
 
-// Effective number of coefficients, the trace of (XᵀX + FᵀF)⁻¹ XᵀX; without a prior, the number of coefficients.
+// Effective number of coefficients: trace of (XᵀX + FᵀF)⁻¹ XᵀX, with F = problem.prior; without a prior, all of them.
 double effective_number(const SharedProblem& problem, const SharedSolution& solution, const Eigen::MatrixXd& products) {
   const auto size = static_cast<double>(problem.columns.size());
   if (problem.prior.size() == 0) return size;

@@ -86,9 +86,7 @@ struct EstimateOptions {
   std::vector<int> kernel_outputs{};    ///< outputs with the prior; empty: all
 };
 
-/// Estimates from the data. The estimate keeps references to the arguments.
-///
-/// Precondition: plan.rows > 0.
+/// Estimates from the data. The estimate keeps references to the arguments. Precondition: plan.rows > 0.
 ArxEstimate estimate_from_data(const Signals& signals, const RowPlan& plan, const ArxDesign& design,
                                const EstimateOptions& options);
 

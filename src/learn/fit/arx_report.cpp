@@ -355,7 +355,7 @@ Criteria criteria_of(std::span<const double> covariance, int outputs, double row
   const double share = coefficients / outputs / rows;
   Criteria out;
   out.fpe = std::exp(log_det) * (1 + share) / (1 - share);
-  out.fpe_total = std::exp(log_det) * (1 + coefficients / rows) / (1 - coefficients / rows);
+  out.fpe_total = std::exp(log_det) * (1 + coefficients / rows) / std::max(1 - coefficients / rows, 0.0);
   out.aic = rows * log_det + 2 * coefficients;
   const double left = rows - coefficients - 1;
   out.aicc =

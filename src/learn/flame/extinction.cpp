@@ -137,7 +137,7 @@ constexpr double kLongest = 4;      // seconds, longest duration tried
 constexpr double kHastes[] = {0, 0.5, 1, 2, 3, 5, 8};
 constexpr double kRecoveries[] = {0.25, 0.5, 0.7, 1, 2};  // decrease of harm per second below the level
 
-// Costs of errors: 1 for a gust or an extinction judged wrongly; at most 1, 0.3 (t / 0.1 s)², for a time wrong by t.
+// Costs: 1 per survived gust that extinguishes, 1 per extinction missed, min(1, 0.3 (t / 0.1 s)²) per time error t.
 constexpr double kOff = 0.1;
 constexpr double kOffCost = 0.3;
 // Rules are equally good if they cost at most kAsWell more than the best one, plus kAsWellEach per gust and extinction:
@@ -161,7 +161,7 @@ struct Shape {
 struct Harms {
   std::vector<double> gusts;                // maximum harm in each gust that was survived
   std::vector<std::vector<double>> deaths;  // harm per watched row of each extinction
-  std::vector<double> first;                // for each extinction: seconds after the first watched row
+  std::vector<double> first;                // for each extinction: recorded time, seconds after the first watched row
   std::vector<double> step;                 // for each extinction: seconds per row
 };
 

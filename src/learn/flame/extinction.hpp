@@ -43,9 +43,8 @@ struct ExtinctionAgreement {
   double median_off() const;
 };
 
-/// Simulates a rule over recordings, restarting at each ignition.
-///
-/// Precondition: rates are positive, and `evidence` has the result of find_blow_outs() for its recordings.
+/// Simulates a rule over recordings, restarting at each ignition. Precondition: rates are positive, and `evidence` has
+/// the result of find_blow_outs() for its recordings.
 ExtinctionAgreement agreement(const Extinction& rule, std::span<const ExtinctionEvidence> evidence);
 
 struct ExtinctionFit {
@@ -54,8 +53,7 @@ struct ExtinctionFit {
   ExtinctionAgreement agreement;        ///< agreement of the rule with the training recordings
 };
 
-/// Learns a rule from recordings with at least one extinction.
-/// Errors: no extinction, or no rule that reproduces more than half of the extinctions.
+/// Learns a rule from recordings. Errors: no extinction, or no rule that reproduces more than half of the extinctions.
 Result<ExtinctionFit> learn_extinction(std::span<const ExtinctionEvidence> evidence);
 
 /// Returns the default rule, for a flame that was never extinguished. Where a recorded gust would extinguish the flame,

@@ -174,7 +174,9 @@ Result<std::optional<LearnedExtinction>> ExtinguishedRecordings::complete(Model&
   std::size_t index = 0;
   while (index < model.inputs.size() && model.inputs[index].name != input_) ++index;
   if (recipe.source == ExtinctionSource::kGiven && index == model.inputs.size()) {
-    return Error{"the recordings have no input that could put it out; leave the rule of extinction away"};
+    return Error{
+        (input_.empty() ? "the recordings have" : input_ + " does not move the outline, so that the model has") +
+        std::string(" no input that could put it out; leave the rule of extinction away")};
   }
   if (recipe.source == ExtinctionSource::kNone || index == model.inputs.size()) {
     return std::optional<LearnedExtinction>();

@@ -28,8 +28,7 @@ struct LearnedExtinction {
 class ExtinguishedRecordings {
  public:
   /// Finds extinctions and removes them from the recordings that burning is learned from. Without an input, or with a
-  /// recipe without extinction, recordings stay unchanged.
-  /// Errors: as find_blow_outs(); a given rule out of range.
+  /// recipe without extinction, recordings stay unchanged. Errors: as find_blow_outs(); a given rule out of range.
   static Result<ExtinguishedRecordings> find(std::vector<Recording> recordings, const OutlineRecipe& recipe);
 
   /// Recordings to learn the outline's dynamics from.
@@ -61,14 +60,12 @@ struct JudgedExtinction {
 Result<std::optional<JudgedExtinction>> judge_extinction(const Model& model, const Recording& recording,
                                                          bool own_scale);
 
-/// The recording without its extinctions, as in training; unchanged if the model has no rule.
-/// Errors: as find_blow_outs().
+/// The recording without extinctions, as in training; unchanged if the model has no rule. Errors: as find_blow_outs().
 Result<Recording> burning_part(const Model& model, const Recording& recording);
 
 const char* word_of(Origin origin);
 
-/// Section `extinction` {input, level, seconds, haste, recovery, modes […]} as in model_report(); empty where the model
-/// has no rule.
+/// Section `extinction` {input, level, seconds, haste, recovery, modes […]} as in model_report(); empty without a rule.
 ReportSection extinction_section(const Model& model);
 
 /// extinction_section() of a freshly learned model, with `source`, `agreement` {…}, `unexplained`, `level_range`.

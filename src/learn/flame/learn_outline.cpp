@@ -51,8 +51,8 @@ Result<OutlineFit> fit_flicker(std::span<const Recording> recordings, OutlineRec
 }
 
 // Fits an outline with its inputs. Unless the caller named inputs, fits without them if all are silent, if none is
-// related to the motion, or if they do not predict held-out motion: most films have sound but no blowing, in a draught
-// a word may be heard as wind, and an input may seem to help by chance.
+// related to the motion, or if they do not predict held-out motion: most films have sound but no blowing, speech may be
+// taken for wind, and an input may seem to help by chance.
 Result<OutlineFit> fit_what_drives(std::span<const Recording> recordings, const OutlineRecipe& recipe,
                                    const Progress& progress) {
   const bool open = !recipe.inputs && !channels_with_role(recordings.front(), Role::kInput).empty();

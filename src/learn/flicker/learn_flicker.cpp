@@ -138,7 +138,7 @@ Result<Light> gathered(std::span<const Recording> recordings, const FlickerRecip
     if (!channel) return channel.error();
     const double every = std::max(1.0, std::round(recording.rate_hz / recipe.rate_hz));
     const double rate = recording.rate_hz / every;
-    if (light.rate_hz > 0 && std::abs(rate - light.rate_hz) > 1e-9 * rate) {
+    if (light.rate_hz > 0 && std::abs(rate - light.rate_hz) > 1e-6 * rate) {
       return Error{recording.source + ": comes to " + number_text(rate, 6) + " rows a second, the first recording to " +
                    number_text(light.rate_hz, 6) + "; learn from recordings of one rate"};
     }
@@ -170,7 +170,8 @@ Result<Light> light_of(std::span<const Recording> recordings, const FlickerRecip
     return wrong("the light lasts " + number_text(rows / light->rate_hz, 3) + " s in stretches of at least " +
                  number_text(shortest / light->rate_hz, 2) + " s, expected at least 20 s; record for longer");
   }
-  if (!(middle > 0)) return wrong("the light is not above 0 on average; is the channel right, and dark at 0?");
+  if (!(middle > 1e-6 * deviation(all)))
+    return wrong("the light is not above 0 on average; is the channel right, and dark at 0?");
   for (auto& trace : light->learned) {
     for (double& value : trace) value /= middle;
   }
@@ -212,7 +213,7 @@ std::vector<double> quantiles_of(const Light& light, const std::vector<std::vect
   return quantiles;
 }
 
-// All traces as one recording with one episode each.
+// All traces as one recording, with one episode per trace.
 Recording recording_of(const Traces& traces, double rate_hz) {
   Recording recording{.source = "light", .rate_hz = rate_hz, .channels = {{"brightness", "", Role::kOutput, {}}}};
   for (std::size_t k = 0; k < traces.size(); ++k) {
@@ -420,7 +421,7 @@ Result<Fit> fit_light(const Light& light, const FlickerRecipe& recipe, std::span
   Fit fit{plain(light, recipe, recordings), {}};
   fit.model.dynamics = std::move(dynamics);
   const auto& learned = std::get<SwitchedArxModel>(fit.model.dynamics);
-  if (auto ok = wisp::check(learned); !ok) return ok.error();
+  if (auto bank = Bank::create(fit.model); !bank) return bank.error();
   match_shocks(light, modes, recipe.seed, fit.model);
   fit.report.sections.push_back(modes_section(learned, light.rate_hz));
   return fit;

@@ -78,10 +78,9 @@ bool explains(const Remark& remark, const VerdictEvidence& evidence) {
 
 // Text of the first remark that explains a poor simulation, with its remedy.
 std::string cause_in(const VerdictEvidence& evidence) {
-  if (evidence.remarks) {
-    for (const Remark& one : evidence.remarks()) {
-      if (explains(one, evidence)) return ": " + one.cause + "; " + one.cure;
-    }
+  if (!evidence.remarks) return "; look for the cause with wisp info, or try other orders or inputs";
+  for (const Remark& one : evidence.remarks()) {
+    if (explains(one, evidence)) return ": " + one.cause + "; " + one.cure;
   }
   return "; the recording shows no cause (wisp info): try --focus auto, which tries many lags, or other inputs";
 }

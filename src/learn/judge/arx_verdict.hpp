@@ -28,9 +28,8 @@ struct VerdictEvidence {
   std::function<std::vector<Remark>()> doubts{};   ///< remarks of feedback_of() and coincidence(); called last
 };
 
-/// Marks a usable summary as not usable where a criterion fails, with the reason. For a model that simulates badly, the
-/// reason names the first remark that explains it, with its remedy. Where the model remains usable, the fit of its free
-/// simulation is added to the reason.
+/// Marks a usable summary as not usable where a criterion fails, with the reason; for bad simulation it names the first
+/// remark that explains it, with its remedy. If the model stays usable, adds its free simulation's fit to the reason.
 void judge_use(const VerdictEvidence& evidence, ArxSummary& summary);
 
 }  // namespace wisp::arx

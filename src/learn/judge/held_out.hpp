@@ -44,10 +44,8 @@ inline constexpr double kSurelyBetter = 2;
 Result<Eigen::MatrixXd> free_run_parts(const ArxModel& model, std::span<const Recording> recordings,
                                        const ChannelChoice& channels, const FreeRunStart& start = {});
 
-/// Errors of every part divided by the reference model's mean error, averaged with equal weight over the outputs that
-/// the reference does not simulate exactly.
-///
-/// Precondition: `errors` and `reference` are of the same parts and outputs.
+/// Errors of every part divided by the reference model's mean error, averaged with equal weight over outputs that the
+/// reference does not simulate exactly. Precondition: `errors` and `reference` are of the same parts and outputs.
 Eigen::VectorXd relative_errors(const Eigen::MatrixXd& errors, const Eigen::MatrixXd& reference);
 
 /// Number of standard errors (over parts) by which the logarithms of `errors` lie below those of `others`; both are

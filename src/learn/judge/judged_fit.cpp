@@ -49,8 +49,8 @@ std::vector<double> free_run_fits(const ArxModel& model, const Signals& signals,
   return free_run_tally(model, signals, start).figures(kFreeRun).fit_percent;
 }
 
-// Moves the poles of an unstable estimate further inwards, to the best of five shares, where that improves free
-// simulation of the judged rows: the effect of an error in a pole near the stability limit decays slowly.
+// Moves the poles of an unstable estimate further inwards, to the best of five shares of the maximum radius, where that
+// improves free simulation of the judged rows: the effect of an error in a pole near the limit decays slowly.
 ArxFit drawn_in(FitFacts facts, const ArxDesign& design, const ArxEstimate& estimate, const Signals& judged,
                 ArxFit fit) {
   constexpr double kNothing = -100, kGain = 1;  // percent: floor of an output's fit; minimum gain of the sum of fits

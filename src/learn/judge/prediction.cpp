@@ -204,7 +204,8 @@ PredictionFigures Tally::figures(int steps) const {
   for (std::size_t i = 0; i < square_.size(); ++i) {
     out.mean_square.push_back(square_[i] / n);
     const double variance = y_square_[i] / n - (y_[i] / n) * (y_[i] / n);
-    out.fit_percent.push_back(variance > 0 ? 100 * (1 - std::sqrt(out.mean_square[i] / variance)) : 0);
+    out.fit_percent.push_back(variance > 1e-13 * y_square_[i] / n ? 100 * (1 - std::sqrt(out.mean_square[i] / variance))
+                                                                  : 0);
   }
   for (double sum : size_) out.j.push_back(sum / n);
   return out;

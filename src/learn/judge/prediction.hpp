@@ -1,10 +1,9 @@
 #pragma once
 // Predictions of a recording by an ARX model: k steps ahead from its measured past, or simulated from the input alone.
 //
-// Source: L. Ljung, System Identification (2nd ed.), section 3.2 (k-step prediction), 16.4 (fit); J_k as in
-// L.-M. Reissell and D. K. Pai (2001), section 3.4. A k-step prediction of y(t) uses outputs up to y(t−k) and all
-// inputs up to t. Its error is computed as Σ F_j e(t−j) over j < k, with F the impulse response from noise to
-// output.
+// Source: L. Ljung, System Identification (2nd ed.), section 3.2 (k-step prediction), 16.4 (fit); J_k as in L.-M.
+// Reissell and D. K. Pai (2001), section 3.4. A k-step prediction of y(t) uses outputs up to y(t−k) and all inputs up
+// to t. Its error is computed as Σ F_j e(t−j) over j < k, with F the impulse response from noise to output.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -32,9 +31,7 @@ struct FreeRunStart {
 };
 
 /// Simulates one recording block by block. Simulation restarts at every episode and after every gap in the inputs. Rows
-/// that cannot be simulated are not visited.
-///
-/// Precondition: the signals' offsets are the model's operating point.
+/// that cannot be simulated are skipped. Precondition: the signals' offsets are the model's operating point.
 void free_run(const ArxModel& model, const Signals& signals, std::size_t recording, const FreeRunStart& start,
               const SimulatedRows& visit);
 
@@ -43,12 +40,11 @@ struct PredictOptions {
   InitialState initial = InitialState::kMeasured;  ///< initial state of a free simulation (kFreeRun)
 };
 
-/// Predicts all rows of a recording; history never crosses episodes.
-/// Returns one series per output, in its own unit, as long as the recording. NaN in an episode's first rows (longest
-/// lag + steps − 1 rows; for kFreeRun the longest lag, or none with kZero), and where this row, one of the steps − 1
-/// rows before, or a sample at their lags is missing. A free simulation needs only inputs after its start, and restarts
-/// after a gap in them. Errors: a channel missing from the recording, channels that do not fit the model, steps out of
-/// range.
+/// Predicts all rows of a recording; history never crosses episodes. Returns one series per output, in its own unit, as
+/// long as the recording. NaN in an episode's first rows (longest lag + steps − 1 rows; for kFreeRun the longest lag,
+/// or none with kZero), and where this row, one of the steps − 1 rows before, or a sample at their lags is missing. A
+/// free simulation needs only inputs after its start, and restarts after a gap in them. Errors: a channel missing from
+/// the recording, channels that do not fit the model, steps out of range.
 Result<std::vector<std::vector<double>>> predict(const ArxModel& model, const Recording& recording,
                                                  const ChannelChoice& channels, const PredictOptions& options = {});
 
@@ -68,8 +64,7 @@ struct FigureOptions {
                                     ///< the model's history; unset: the model's history
 };
 
-/// Prediction errors over all recordings together, for each number of steps.
-/// Errors: as predict, and where nothing can be predicted.
+/// Prediction errors over all recordings, per number of steps. Errors: as predict, and where nothing can be predicted.
 Result<std::vector<PredictionFigures>> prediction_figures(const ArxModel& model, std::span<const Recording> recordings,
                                                           const ChannelChoice& channels,
                                                           const FigureOptions& options = {});
@@ -78,9 +73,7 @@ Result<std::vector<PredictionFigures>> prediction_figures(const ArxModel& model,
 inline constexpr int kSettledSteps = 2000;
 
 /// Standard deviations of k-step prediction errors for k = 1 … steps, from the model's own noise: [output][k − 1]. A
-/// prediction ±1.96 sd is its 95 % interval (for kFreeRun take kSettledSteps).
-///
-/// Precondition: steps >= 1.
+/// prediction ±1.96 sd is its 95 % interval (for kFreeRun take kSettledSteps). Precondition: steps >= 1.
 std::vector<std::vector<double>> prediction_sd(const ArxModel& model, int steps);
 
 /// Checks numbers of steps. Errors: an empty list, or a number that is neither 1 to 100000 nor kFreeRun.

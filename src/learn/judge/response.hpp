@@ -40,9 +40,7 @@ struct FrequencyResponse {
 };
 
 /// G(e^{iω}) from `input` to `output` at angular frequencies ω in radians per sample (0 … π; multiplied by the rate:
-/// radians per second).
-///
-/// Preconditions: as step_response.
+/// radians per second). Preconditions: as step_response.
 FrequencyResponse frequency_response(const ArxModel& model, int output, int input, std::span<const double> omega,
                                      std::span<const double> covariance = {});
 

@@ -163,7 +163,9 @@ Result<Choice> choose(const Rows& rows, const FitOptions& options, const Progres
   for (int k = 2; options.modes == 0 && k <= kMaxTried; ++k) counts.push_back(k);
   std::vector<double> single, last, chosen;
   for (const int count : counts) {
-    if (static_cast<double>(learned.rows()) < count * min_rows(rows)) break;
+    const bool few = static_cast<double>(learned.rows()) < count * min_rows(rows);
+    if (few && count == options.modes) return Error{"too few rows come before the held-out ends for this many modes"};
+    if (few) break;
     const auto found = best_of_starts(learned, count, options.seed, progress);
     if (!found) return found.error();
     const auto row = row_likelihoods(found->chain, unseen);

@@ -59,7 +59,7 @@ class Predictor {
     const auto back = static_cast<std::size_t>(steps - 1);
     for (std::size_t t = first + back; t < episode.end; ++t) {
       RowVectorXd chance, next;
-      for (std::size_t s = t - back; s <= t; ++s) next = step(s, s == t - back, chance);
+      for (std::size_t s = t - back; s <= t && next.allFinite(); ++s) next = step(s, s == t - back, chance);
       show(t, next, out);
       for (std::size_t i = 0; i < out.size(); ++i) {
         for (std::size_t s = t - back; s <= t; ++s) series_[i][s] = measured_[i][s];
@@ -207,9 +207,10 @@ Result<PredictionFigures> figures(const SwitchedArxModel& model, std::span<const
     count = std::max(count, 1.0);
     const double spread = square - sum * sum / count;
     out.mean_square.push_back(error / count);
-    out.fit_percent.push_back(spread > 0 ? 100 * (1 - std::sqrt(error / spread)) : 0);
+    out.fit_percent.push_back(spread > 1e-13 * square ? 100 * (1 - std::sqrt(error / spread)) : 0);
     out.j.push_back(size / count);
   }
+  if (out.rows == 0) return Error{recordings.front().source + ": is too short to predict any row"};
   return out;
 }
 
@@ -316,11 +317,16 @@ Mode fit_mode(const Rows& rows, const VectorXd& weights, const VectorXd& min_var
 bool limit_radius(double max_radius, const Rows& rows, const VectorXd& weights, const VectorXd& min_variance,
                   Mode& mode) {
   const LagLayout& layout = rows.design.layout;
-  const double radius = spectral_radius(mode_model(model_of({{mode}, {}, {}}, rows), 0));
+  const auto radius_of = [&] { return spectral_radius(mode_model(model_of({{mode}, {}, {}}, rows), 0)); };
+  double radius = radius_of();
   if (radius <= max_radius) return false;
-  for (int c = 0; c < layout.size(); ++c) {
-    if (sign_of(layout[c], rows.outputs()) < 0) mode.theta.row(c) *= std::pow(max_radius / radius, layout[c].lag);
-  }
+  double most = max_radius;
+  do {  // again where coefficients in single precision leave poles that cluster outside
+    for (int c = 0; c < layout.size(); ++c) {
+      if (sign_of(layout[c], rows.outputs()) < 0) mode.theta.row(c) *= std::pow(most / radius, layout[c].lag);
+    }
+    radius = radius_of(), most *= max_radius;
+  } while (radius >= 1);
   mode.theta.row(layout.find({kConstantChannel, 0})) +=
       weights.transpose() * residuals(rows, mode.theta) / std::max(weights.sum(), 1e-9);
   mode.factor = residual_factor(residuals(rows, mode.theta), weights, min_variance);

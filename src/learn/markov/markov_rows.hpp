@@ -95,8 +95,7 @@ Result<Belief> believe(const SwitchedArxModel& model, const Recording& recording
 Result<std::vector<std::vector<double>>> predict(const SwitchedArxModel& model, const Recording& recording,
                                                  const ChannelChoice& channels, int steps);
 
-/// Figures of predict() over all recordings together, as in prediction_figures().
-/// Errors: as predict().
+/// Figures of predict() over all recordings together, as in prediction_figures(). Errors: as predict().
 Result<PredictionFigures> figures(const SwitchedArxModel& model, std::span<const Recording> recordings,
                                   const ChannelChoice& channels, int steps);
 

@@ -7,14 +7,10 @@
 namespace wisp {
 
 /// Probability that a chi-squared variable with `freedom` degrees of freedom is above `value`. Absolute error: about
-/// 1e-13 up to a thousand degrees of freedom, above that in proportion to them (1e-8 for 1e8).
-///
-/// Precondition: freedom > 0.
+/// 1e-13 up to a thousand degrees of freedom, above in proportion to them (1e-8 for 1e8). Precondition: freedom > 0.
 double chi_squared_tail(double value, double freedom);
 
-/// Returns the value below which a chi-squared variable lies with probability `p`.
-///
-/// Preconditions: freedom > 0; 0 < p < 1.
+/// Value below which a chi-squared variable lies with probability `p`. Preconditions: freedom > 0; 0 < p < 1.
 double chi_squared_quantile(double p, double freedom);
 
 }  // namespace wisp

@@ -1,8 +1,7 @@
 #pragma once
 // K-means: clusters rows of numbers so that the squared distances to K centroids are least.
 //
-// Sources: S. P. Lloyd (1982) for the alternation; D. Arthur & S. Vassilvitskii, k-means++ (SODA 2007), greedy variant,
-// for the starts.
+// Sources: S. P. Lloyd (1982), alternation; D. Arthur & S. Vassilvitskii, greedy k-means++ (SODA 2007), starts.
 
 #include <cstddef>
 #include <cstdint>

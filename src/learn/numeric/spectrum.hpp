@@ -25,10 +25,8 @@ struct Spectrum {
 };
 
 /// Welch's estimate: the average of periodograms of segments of `length` samples with 50 % overlap, each without its
-/// mean and under a Hann window. Segments never cross stretches.
-/// Returns the spectrum; without power where no stretch has `length` samples.
-///
-/// Precondition: length is even and >= 2; rate_hz > 0.
+/// mean and under a Hann window. Segments never cross stretches. Returns the spectrum; without power where no stretch
+/// has `length` samples. Precondition: length is even and >= 2; rate_hz > 0.
 Spectrum welch(Samples stretches, double rate_hz, std::size_t length);
 
 /// Phase and coherence of two series of equal rate at one frequency.
@@ -42,9 +40,7 @@ CrossSpectrum cross_spectrum(std::span<const double> a, std::span<const double> 
 
 /// Root mean square over frequency of 10 log10(P/Q), in decibels, without frequency 0, since segments have their means
 /// removed. Power is floored at 100 dB below the larger spectrum's peak, so two constant channels have distance 0. NaN
-/// where a spectrum has no power estimates.
-///
-/// Precondition: both have the same frequencies.
+/// where a spectrum has no power estimates. Precondition: both have the same frequencies.
 double log_spectral_distance(const Spectrum& p, const Spectrum& q);
 
 }  // namespace wisp

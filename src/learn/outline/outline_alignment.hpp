@@ -55,9 +55,8 @@ struct AlignedOutline {
 };
 
 /// Estimates the lag of an outline's motion behind each named input. Inputs that the motion leads significantly (the
-/// whole interval below 0) are moved earlier by whole frames; samples freed at the end of an episode become NaN.
-/// Inputs missing from the recording are ignored here.
-/// Errors: as outline_layout().
+/// whole interval below 0) are moved earlier by whole frames; samples freed at the end of an episode become NaN. Inputs
+/// missing from the recording are ignored here. Errors: as outline_layout().
 Result<AlignedOutline> align_outline(const Recording& recording, const std::vector<std::string>& inputs);
 
 }  // namespace wisp

@@ -20,13 +20,13 @@ constexpr int kOrder = 2;
 constexpr int kInputLags = 6;                // lags 0 to 5: further lags, up to 20 frames, brought no lasting gain
 constexpr Eigen::Index kMaxComponents = 14;  // maximum with inputs; without inputs all that move are replayed
 constexpr double kMinPower = 1e-7;           // share of the largest power, below which a component is rounding
-constexpr double kRidge = 1.5;               // initial, in rows of whitened components: limits fits to chance
+constexpr double kRidge = 1.5;               // initial, in rows of whitened components: limits overfitting
 constexpr double kMaxRidge = 1e9;
 constexpr double kStable = 0.999;
 constexpr double kMinMotion = 1e-9;  // in heights: smaller motion is rounding
 constexpr Eigen::Index kMinRows = 30;
 constexpr double kFadeSeconds = 0.1;  // without inputs: half-life of deviations from the recorded rows
-constexpr std::size_t kPowers = 3;    // powers of an input's size, followed by as many signed ones (regressor_names())
+constexpr std::size_t kPowers = 3;    // powers of an input's size, followed by as many signed ones (RegressorShape)
 
 // Returns whether a regressor is a power of an input's size, which reflection leaves unchanged.
 bool is_even(std::size_t regressor) { return regressor / kPowers % 2 == 0; }

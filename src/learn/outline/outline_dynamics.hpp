@@ -7,8 +7,7 @@
 // antisymmetric ones and odd functions (for such block structure M. Golubitsky, I. Stewart, "The Symmetry Perspective",
 // 2002, chapter 1). The shape at rest is as recorded, asymmetric where wicks or trackers lean.
 //
-// Without wind no coefficient is estimated: recorded rows are replayed (run/arx/lookup_lanes.hpp), and the dynamics
-// only let deviations from them decay.
+// Without wind no coefficient is estimated: recorded rows are replayed (run/arx/lookup_lanes.hpp), deviations decay.
 
 #include <span>
 #include <vector>
@@ -52,8 +51,7 @@ Result<std::vector<std::vector<double>>> predict_outline(const OutlineDynamics& 
                                                          const PreparedOutlines& prepared,
                                                          const PredictOptions& options);
 
-/// Standard deviations of predictions of control points, as in prediction_sd(). Covariances between components are
-/// neglected.
+/// Standard deviations of predictions of control points, as prediction_sd(), neglecting covariances between components.
 std::vector<std::vector<double>> outline_prediction_sd(const OutlineDynamics& dynamics, int steps);
 
 }  // namespace wisp

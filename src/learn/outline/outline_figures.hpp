@@ -33,18 +33,14 @@ struct OutlineFigures {
 
 /// Judges dynamics on prepared recordings. Without inputs a free simulation stays at the mean shape, and the figures
 /// for kFreeRun measure how much the outline moves. Tip and overlap use at most 2000 equally spaced frames. Errors: as
-/// predict_outline(); no row that is both measured and predicted.
-///
-/// Precondition: at least one recording.
+/// predict_outline(); no row that is both measured and predicted. Precondition: at least one recording.
 Result<OutlineFigures> outline_figures(const OutlineDynamics& dynamics, std::span<const Recording> recordings,
                                        const PreparedOutlines& prepared, const std::vector<int>& steps = kJudgedSteps);
 
 /// The value for a number of steps; NaN where that number was not judged.
 double at_steps(const std::vector<int>& steps, const std::vector<double>& values, int wanted);
 
-/// 100(1 − ‖y − ŷ‖/‖y − ȳ‖); 0 where y is constant or empty.
-///
-/// Precondition: both have the same size.
+/// 100(1 − ‖y − ŷ‖/‖y − ȳ‖); 0 where y is constant or empty. Precondition: both have the same size.
 double fit_percent(std::span<const double> measured, std::span<const double> predicted);
 
 }  // namespace wisp

@@ -137,8 +137,8 @@ Result<OutlineTrial> try_outline(const Model& model, const PreparedOutlines& pre
   out.outside = outside_share(recorded, ends, outlines({&play->recording, 1}, prepared, kMaxPlayed, &out.crossed));
   const FidelityOptions how{.channels = prepared.channels.outputs, .max_windows = kWindows};
   if (const auto found = fidelity({&real, 1}, {&play->recording, 1}, how)) {
-    out.half_second = found->energy_distance;
-    out.two_seconds = found->long_motion;
+    if (std::isfinite(found->energy_distance.value)) out.half_second = found->energy_distance;
+    if (std::isfinite(found->long_motion.value)) out.two_seconds = found->long_motion;
   }
   return out;
 }

@@ -59,12 +59,9 @@ struct OutlineFit {
 };
 
 /// Learns a model from recordings of an outline in pixels (outline_units.hpp), without an extinction rule and with the
-/// inputs at the gain that they have (see at_common_gain()). The model has the knots of the first recording; recordings
-/// with other knots are converted, with a warning.
-/// Errors, naming the recording: not an outline, a different number of points, missing inputs, too few rows, a recipe
-/// out of range; kStopped.
-///
-/// Precondition: all recordings have one rate.
+/// inputs at the gain that they have (see at_common_gain()). The model has the first recording's knots; recordings with
+/// other knots are converted, with a warning. Errors, naming the recording: not an outline, a different number of
+/// points, missing inputs, too few rows, a recipe out of range; kStopped. Precondition: equal rates.
 Result<OutlineFit> fit_outline(std::span<const Recording> recordings, const OutlineRecipe& recipe = {},
                                const Progress& progress = {});
 

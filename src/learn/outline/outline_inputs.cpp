@@ -231,9 +231,8 @@ std::vector<std::uint8_t> undisturbed_rows(const Recording& recording, std::span
 
 double resting_height_pixels(const Recording& recording, const OutlineLayout& layout,
                              std::span<const OutlineInput> inputs) {
-  const auto rows = undisturbed_rows(recording, inputs);
-  if (inputs.empty() || rows.empty()) return mean(heights_pixels(recording, layout, rows));
-  return quantile(heights_pixels(recording, layout, rows), 0.5);
+  const auto calm = heights_pixels(recording, layout, undisturbed_rows(recording, inputs));
+  return inputs.empty() || calm.empty() ? mean(heights_pixels(recording, layout, {})) : quantile(calm, 0.5);
 }
 
 std::vector<std::string> regressor_names(std::span<const OutlineInput> inputs, RegressorShape shape) {

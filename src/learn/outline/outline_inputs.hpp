@@ -44,13 +44,11 @@ struct OutlineInput {
   double highest = 0;  ///< highest observed value, at least 0, in the model's units
 };
 
-/// Returns the input with its range and its scale: the 95th percentile of |input| over the rows of all recordings in
-/// which |input| exceeds kCalmShare of its 99th percentile.
-/// Errors: a recording without that channel, no sample, an input that is always 0.
+/// The input with its range and its scale: the 95th percentile of |input| over the rows of all recordings in which it
+/// exceeds kCalmShare of its 99th percentile. Errors: a recording without that channel, no sample, an input always 0.
 Result<OutlineInput> scaled_input(std::span<const Recording> recordings, const std::string& name);
 
-/// The input's value in training recordings that is 1 in the model.
-/// Errors: the model has no input of that name, or no training record.
+/// The input's value in training that is 1 in the model. Errors: no input of that name, or no training record.
 Result<double> trained_scale(const Model& model, const std::string& input);
 
 /// Flags per row: 1 where every input is calm (everywhere without inputs).
@@ -81,9 +79,7 @@ struct RegressorShape {
 std::vector<std::string> regressor_names(std::span<const OutlineInput> inputs, RegressorShape shape);
 
 /// A recording with an input channel for every regressor, in the model's units, in place of its inputs; missing samples
-/// stay missing.
-///
-/// Precondition: the recording has the inputs.
+/// stay missing. Precondition: the recording has the inputs.
 Recording with_regressors(const Recording& recording, std::span<const OutlineInput> inputs, RegressorShape shape);
 
 /// Mean of every output over the complete rows among those flagged, in the layout's order; empty if there are none.

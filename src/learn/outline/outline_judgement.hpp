@@ -1,6 +1,5 @@
 #pragma once
-// Results of validating an outline on a recording: predictions, simulation from the inputs alone, and fidelity of its
-// free play.
+// Results of validating an outline on a recording: predictions, simulation from inputs alone, fidelity of free play.
 
 #include <optional>
 #include <string>

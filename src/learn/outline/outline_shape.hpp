@@ -28,15 +28,11 @@ class OutlineCurve {
 };
 
 /// Points at equal arc lengths of a polyline, including both ends, independent of the curve's parameter. Where the
-/// polyline has no length, all are its first point.
-///
-/// Precondition: the polyline has points; count >= 2.
+/// polyline has no length, all are its first point. Precondition: the polyline has points; count >= 2.
 std::vector<OutlinePoint> at_equal_lengths(std::span<const OutlinePoint> polyline, std::size_t count);
 
 /// Tip of an outline: the mean of the 2 % of its points that are farthest from the middle of its base (its two ends). A
-/// mean, because the single farthest point jumps on a blunt tip.
-///
-/// Precondition: the polyline has points.
+/// mean, because the single farthest point jumps on a blunt tip. Precondition: the polyline has points.
 OutlinePoint tip_of(std::span<const OutlinePoint> polyline);
 
 /// Distance of the tip from the middle of the base.

@@ -25,8 +25,7 @@ struct Synthesis {
   double held_share = 0;  ///< share of steps with an output clamped to its range, without the warm-up
 };
 
-/// Plays a model in a bank with one instance.
-/// Errors: as Bank::create(); an input that is missing from the recording.
+/// Plays a model in a bank with one instance. Errors: as Bank::create(); an input that is missing from the recording.
 Result<Synthesis> synthesize(const Model& model, const SynthesisOptions& options);
 
 }  // namespace wisp

@@ -58,20 +58,16 @@ std::vector<double> whole_row(const Recording& recording, const OutlineLayout& l
 /// the recording does not say.
 std::optional<bool> follows_underside(const Recording& recording);
 
-/// Distance in pixels from the middle of the base to the tip, for every complete row in which `rows` is not 0 (empty:
-/// all rows).
+/// Pixels from the middle of the base to the tip, for every complete row in which `rows` is not 0 (empty: all rows).
 std::vector<double> heights_pixels(const Recording& recording, const OutlineLayout& layout,
                                    std::span<const std::uint8_t> rows);
 
 /// Converts a whole recording to the model's units: changes its outputs, adds base.x and base.y (motion, pixels), the
 /// middle between the first and last control point, and sets the attribute `pixels_per_unit`. Other channels stay
-/// unchanged.
-///
-/// Precondition: layout is the recording's; pixels_per_unit > 0.
+/// unchanged. Precondition: layout is the recording's; pixels_per_unit > 0.
 Recording to_model_units(const Recording& recording, const OutlineLayout& layout, double pixels_per_unit);
 
-/// Converts back to pixels: inverts to_model_units() up to rounding.
-/// Errors: the recording has no base.x, base.y or `pixels_per_unit`.
+/// Inverts to_model_units() up to rounding. Errors: the recording has no base.x, base.y or `pixels_per_unit`.
 Result<Recording> to_pixels(const Recording& recording);
 
 }  // namespace wisp

@@ -23,9 +23,7 @@ double stored(double value, double scale, double largest = kLargestStored);
 /// Returns the one-step residuals of the prepared recordings for resampling, 8 bits per shape component. Usable rows
 /// are complete, with their input's past and an outline that does not intersect itself. With inputs and less than a
 /// second of usable rows the result is empty. Input of the opposite sign replays rows mirrored. Errors: as predict();
-/// no two consecutive usable rows.
-///
-/// Precondition: the dynamics have a shape.
+/// no two consecutive usable rows. Precondition: the dynamics have a shape.
 Result<ResampledResiduals> resampled_residuals(const OutlineDynamics& dynamics, std::span<const Recording> recordings,
                                                const PreparedOutlines& prepared);
 

@@ -152,7 +152,7 @@ void describe(const ArxModel& model, const std::string& prefix, ReportSection& s
   const int states = states_of(model);
   add(section, prefix + "poles", states <= kMaxStates ? ReportValue(places(poles(model))) : ReportValue());
   add(section, prefix + "zeros",
-      states <= kMaxStatesForZeros
+      states <= kMaxStatesForZeros && model.orders.history() <= kMaxStates
           ? ReportValue(per_pair(model.orders, [&](int i, int k) { return places(zeros(model, i, k)); }))
           : ReportValue());
   const std::vector<double> rest{0.0};

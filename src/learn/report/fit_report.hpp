@@ -25,8 +25,7 @@ void tell(const ArxModel& model, const Model& of, Report& report);
 /// Adds for people the poles alone; none above 12 states.
 void tell_poles(const ArxModel& model, double rate_hz, Report& report);
 
-/// Adds coefficients with standard errors, then every figure of the summary, warnings and verdict. `model` is the fit's
-/// model with its channel names.
+/// Adds coefficients with standard errors, all figures, warnings and verdict. `model`: the fit's, with channel names.
 void add_fit(const ArxFit& fit, const Model& model, Report& report);
 
 /// Adds all candidates, the best with its runners-up by the criterion, and the best of each output alone.

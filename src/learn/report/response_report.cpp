@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kFrequencies = 240;
 
-// Samples of a response: the longest lag plus the samples in which the slowest pole decays to 1 %, clamped to 20 … 600.
+// Length of a response in samples: the longest lag, plus 20 to 600 in which the slowest pole decays to 1 %.
 int settling_samples(const ArxModel& model) {
   constexpr int kMin = 20, kMax = 600;
   const double radius = spectral_radius(model);

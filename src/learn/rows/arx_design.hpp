@@ -22,9 +22,7 @@ struct UniformOrders {
   int group = 1;  ///< number of consecutive outputs that are always coupled, ≥ 1; 2 where outputs are x, y of points
 };
 
-/// Returns na (outputs × outputs), nb and nk (outputs × inputs).
-///
-/// Precondition: the fields are in the ranges beside them.
+/// na (outputs × outputs), nb and nk (outputs × inputs). Precondition: the fields are in the ranges beside them.
 ArxOrders make_orders(const UniformOrders& uniform);
 
 /// Output rows with equal regressors, which share a factorisation.
@@ -46,8 +44,7 @@ inline double sign_of(const LaggedChannel& column, int outputs) {
   return column.channel != kConstantChannel && column.channel < outputs ? -1.0 : 1.0;
 }
 
-/// Groups the output rows by equal regressors, which are columns of `layout`. With `apart` every output is its own
-/// group, even where regressors are equal.
+/// Groups output rows by equal regressors, columns of `layout`; with `apart` every output is a group of its own.
 std::vector<SharedRows> shared_rows(const ArxOrders& orders, ArxOffset offset, const LagLayout& layout,
                                     bool apart = false);
 

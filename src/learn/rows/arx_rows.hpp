@@ -12,8 +12,7 @@
 
 namespace wisp {
 
-/// A column of a regression: channel `channel` at t − lag. Channels are the outputs, then the inputs; the constant
-/// column is channel −1.
+/// A regression's column: `channel` at t − lag. Channels are the outputs, then the inputs; −1 is the constant column.
 struct LaggedChannel {
   int channel = 0;
   int lag = 0;
@@ -52,8 +51,7 @@ class LagLayout {
   std::vector<LaggedChannel> columns_;
 };
 
-/// Names of channels, in the model's order. Roles in the recording are ignored: an output of one system may be an input
-/// of another.
+/// Names of channels, in the model's order. Recorded roles are ignored: one system's output may be another's input.
 struct ChannelChoice {
   std::vector<std::string> inputs;   ///< may be empty: a model without input
   std::vector<std::string> outputs;  ///< at least one
@@ -146,9 +144,7 @@ class ScaledBlock {
   /// Preconditions: `signals` outlives the block; history >= 0.
   ScaledBlock(const Signals& signals, int history) : signals_(signals), history_(history) {}
 
-  /// Loads the rows, and `history` rows before them.
-  ///
-  /// Precondition: rows.begin >= history.
+  /// Loads the rows, and `history` rows before them. Precondition: rows.begin >= history.
   void load(const RowRun& rows);
 
   std::size_t rows() const { return rows_; }

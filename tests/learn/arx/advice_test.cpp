@@ -90,6 +90,14 @@ TEST(Advice, OutliersInFourRowsOfAHundredAreStillOutliers) {
   EXPECT_THAT(found.front().cause, HasSubstr("16 outliers (rows 11, 36,"));
 }
 
+TEST(Advice, RowsOfAPartAreNumberedAsInTheFile) {
+  Recording recording = system(400, 2, 1);
+  recording.channels[1].samples[110] += 80;
+  const auto found = remarks(slice(recording, 100, 400));
+  ASSERT_THAT(found, remark(RemarkKind::kOutliers));
+  EXPECT_THAT(found.front().cause, HasSubstr("row 111"));
+}
+
 TEST(Advice, OutliersAreCountedInTheRowsOfTheirOwnRecording) {
   std::vector<Recording> recordings{system(400, 2, 1), system(400, 2, 1)};
   recordings[0].source = "first.csv";

@@ -234,6 +234,31 @@ TEST(ValidateChain, FallsOfOneRowASecondAreCompared) {
   EXPECT_TRUE(report) << report.error().message;
 }
 
+TEST(ValidateChain, ARecordingWithOrientationIsRefusedByAModelWithout) {
+  ChainRecipe recipe = quick();
+  recipe.event = {EventKind::kMinimum, "horizontal_speed"};
+  const auto fit = learned(made_falls({.falls = 20, .orientation = false}), recipe);
+  ASSERT_TRUE(fit) << fit.error().message;
+  const Recording posed = made_falls({.falls = 4});
+  const auto report = validate_chain(fit->model, std::span(&posed, 1), 1);
+  ASSERT_FALSE(report);
+  EXPECT_THAT(report.error().message, HasSubstr("orientation"));
+}
+
+TEST(LearnChain, EventsOfAChannelThatIsNotPlayedAreNotCalledMissing) {
+  Recording falls = made_falls({.falls = 40});
+  Channel flashes{"light", "", Role::kOutput, {}};
+  for (std::size_t row = 0; row < falls.rows(); ++row) {
+    flashes.samples.push_back(std::sin(0.2 * static_cast<double>(row)));
+  }
+  falls.channels.push_back(flashes);
+  ChainRecipe recipe = quick();
+  recipe.event = {EventKind::kMaximum, "light"};
+  const auto fit = learned(falls, recipe);
+  ASSERT_TRUE(fit) << fit.error().message;
+  EXPECT_THAT(fit->report.verdict->reason, testing::Not(HasSubstr("have no events")));
+}
+
 TEST(ValidateChain, WhatIsNoChainOrSaysNotHowItWasCutIsAnError) {
   const Recording recording = made_falls({.falls = 4});
   auto fit = learned(recording);

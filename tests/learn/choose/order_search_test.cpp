@@ -203,6 +203,13 @@ TEST(EstimateDelays, AShortDelayThatIsSupportedTooDoesNotHideALongOne) {
   }
 }
 
+TEST(SearchOrders, ValidationRecordingsOfAnotherRateAreRefused) {
+  const Recording recording = record_system(made_system(), 800, 3);
+  Recording other = record_system(made_system(), 800, 5);
+  other.rate_hz *= 2;
+  EXPECT_FALSE(search_orders({&recording, 1}, {&other, 1}, kChannels, {.by = OrderCriterion::kValidation}));
+}
+
 TEST(EstimateDelays, FindsEveryInputsDelayToEveryOutput) {
   ArxModel model = made_system();
   OrderMatrix& nk = model.orders.nk;

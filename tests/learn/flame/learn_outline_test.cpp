@@ -10,6 +10,7 @@
 #include "learn/outline/made_outline.hpp"
 #include "record/loudness.hpp"
 #include "wisp/learn/validate.hpp"
+#include "wisp/model/file.hpp"
 
 namespace wisp::learn_outline_test {
 namespace {
@@ -225,6 +226,32 @@ TEST(LearnOutline, AnInputThatMovesItStaysWithoutAlignment) {
   OutlineRecipe recipe;
   recipe.align = false;
   EXPECT_FALSE(learned({windy()}, recipe).model.inputs.empty());
+}
+
+TEST(LearnOutline, AFilmShorterThanHalfASecondGivesAModelThatCanBeStored) {
+  const Fit fit = learned({made::outline_recording({.rows = 100, .rate_hz = 240})}, {});
+  EXPECT_TRUE(model_bytes(fit.model));
+}
+
+TEST(LearnOutline, CalmRowsWithoutAnOutlineDoNotHideTheOthers) {
+  Recording film = made::outline_recording({.rows = 600, .wind = true});
+  for (Channel& channel : film.channels) {
+    for (std::size_t row = 0; row < 600; ++row) {
+      if (channel.name == "wind") channel.samples[row] = row < 90 ? 0 : 3;
+      if (channel.name != "wind" && row < 90) channel.samples[row] = std::nan("");
+    }
+  }
+  EXPECT_TRUE(learn_outline(std::vector{film}, {}));
+}
+
+TEST(LearnOutline, AGivenRuleOfASilentInputNamesTheInput) {
+  Recording quiet = made::outline_recording({.rows = 900});
+  quiet.channels.push_back({"wind", "1", Role::kInput, std::vector<double>(quiet.rows(), 0.0)});
+  FlameRecipe recipe;
+  recipe.extinction = {ExtinctionSource::kGiven, 1.5, 0.25};
+  const auto fit = learn_outline(std::vector{quiet}, recipe);
+  ASSERT_FALSE(fit);
+  EXPECT_THAT(fit.error().message, HasSubstr("wind"));
 }
 
 TEST(LearnOutline, CanBeStopped) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "base/statistics.hpp"
 #include "wisp/learn/learn.hpp"
 #include "wisp/model/file.hpp"
 
@@ -100,6 +101,10 @@ TEST(LearnFlicker, WhatCannotBeLearnedFromIsSaid) {
   says(light(50, 4), {.output = "colour"}, "has no channel \"colour\"");
   says(light(50, 4), {.modes = 1}, "expected 2 to 8");
   says(light(50, 4), {.rate_hz = 2}, "expected 10 to 1000");
+  Recording alternating = light(50, 4);  // its mean was taken off
+  const double level = mean(alternating.channels[0].samples);
+  for (double& value : alternating.channels[0].samples) value = value - level + 1e-14;
+  says(alternating, {}, "not above 0");
   Recording outline = light(50, 4);
   outline.channels[0].name = "p0.x";
   EXPECT_TRUE(learn(outline, FlickerRecipe{})) << "an only output is the light";

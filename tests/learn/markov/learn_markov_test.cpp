@@ -48,6 +48,21 @@ TEST(LearnSwitched, ValidationCountsTheRowsOfEveryMode) {
   EXPECT_GT(std::get<double>(channels.rows[0][1]), 40);
 }
 
+TEST(LearnSwitched, ARecordingTooShortToPredictIsRefused) {
+  const Recording recording = made_chain(1000, 1).recording;
+  const auto fit = learn_switched({&recording, 1}, recipe_of_made());
+  ASSERT_TRUE(fit) << fit.error().message;
+  const auto report = validate_switched(fit->model, slice(recording, 0, 10), {.steps = {1, 15}});
+  ASSERT_FALSE(report);
+  EXPECT_THAT(report.error().message, testing::HasSubstr("too short"));
+}
+
+TEST(LearnSwitched, ModesForWhichBriefTakesAreTooFewAreRefused) {
+  Recording takes = made_chain(51, 1).recording;
+  for (std::size_t row = 0; row < takes.rows(); ++row) takes.episode_ids.push_back(static_cast<std::int64_t>(row / 3));
+  EXPECT_FALSE(learn_switched({&takes, 1}, recipe_of_made()));
+}
+
 TEST(LearnSwitched, StopsBetweenStarts) {
   const Recording recording = made_chain(1000, 1).recording;
   int calls = 0;

@@ -191,6 +191,16 @@ TEST(MarkovPrediction, OfANoiselessRecordingOfOneModeIsTheRecording) {
   }
 }
 
+TEST(MarkovPrediction, NothingMeasuredAfterAMissingSampleIsUsed) {
+  auto made = record_switched({{0.7, 0.5, 0.2}}, 50, 9, 0.0, [](int, double, double, double) { return 0; });
+  made.recording.channels[1].samples[10] = std::nan("");
+  const SwitchedArxModel model{first_order(), {0}, {0}, {{{{-0.7, 0.5}}, {}, {0.2}, {0.1}}}, {1}, {1}};
+  const auto predicted = markov::predict(model, made.recording, kChannels, 3);
+  ASSERT_TRUE(predicted) << predicted.error().message;
+  // Row 13 lacks the sample that it is predicted from; rows 11 and 12 are predicted from earlier ones.
+  for (const std::size_t row : {11, 12, 13, 14}) EXPECT_EQ(std::isnan((*predicted)[0][row]), row == 13) << row;
+}
+
 TEST(MarkovPrediction, OneStepAheadIsTheMeanOverModesByTheirProbabilities) {
   const auto made = made_chain(50, 10);
   SwitchedArxModel model{first_order(), {0}, {0}, {}, {0.25, 0.75}, {0.25, 0.75, 0.25, 0.75}};

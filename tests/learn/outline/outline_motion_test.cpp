@@ -81,6 +81,14 @@ TEST(OutlineMotion, TwoThatHaveNothingToDoWithEachOtherAreSaidToBe) {
   EXPECT_THAT(report->find("coherence")->meaning, HasSubstr("the phase says nothing"));
 }
 
+TEST(OutlineMotion, OneCommonWindowTellsNothing) {
+  Recording both[] = {flickering(11, 0, 1), flickering(0, 0, 2)};
+  for (Channel& one : both[1].channels) std::fill(one.samples.begin() + 250, one.samples.end(), std::nan(""));
+  const auto report = outline_motion(both);
+  ASSERT_TRUE(report) << report.error().message;
+  EXPECT_THAT(report->find("coherence")->meaning, HasSubstr("the phase says nothing"));
+}
+
 TEST(OutlineMotion, OfFewFramesAMinuteThereIsNoFlicker) {
   Recording slow = flickering(0, 0, 1, 40);
   slow.rate_hz = 0.2;

@@ -188,7 +188,7 @@ struct FitSums {
       size += expected[axis] * expected[axis];
     }
   }
-  double fit_percent() const { return 100 * (1 - std::sqrt(error / size)); }
+  double fit_percent() const { return size > 0 ? 100 * (1 - std::sqrt(error / size)) : 0; }
 };
 
 // Angle in the horizontal plane between two displacements, degrees.

@@ -202,8 +202,8 @@ Result<void> check_jumps(const Recording& recording, const MotionPiece& piece) {
       if (other != k) around = std::max(around, steps[other]);
     }
     if (!(around > 0) || steps[k] <= kMaxJump * around) continue;
-    return Error{recording.source + ": row " + std::to_string(piece.first_row + k + 2) + " lies " +
-                 number_text(steps[k], 3) + " m from the row before it, where steps are " + number_text(usual, 3) +
+    return Error{row_name(recording, piece.first_row + k + 1) + " lies " + number_text(steps[k], 3) +
+                 " m from the row before it, where steps are " + number_text(usual, 3) +
                  " m: expected motion without jumps; begin a new episode there, or leave the row empty"};
   }
   return {};
@@ -277,7 +277,7 @@ std::array<double, kSize> cubic(std::span<const std::array<double, kSize>> value
 }  // namespace
 
 std::string row_name(const Recording& recording, std::size_t row) {
-  return recording.source + ": row " + std::to_string(row + 1);
+  return recording.source + ": row " + std::to_string(recording.first_row + row + 1);
 }
 
 Result<Motion> motion_of(std::span<const Recording> recordings, int smooth_rows) {

@@ -44,17 +44,14 @@ struct Motion {
 };
 
 /// Reads the channels pos.x, pos.y, pos.z and, if present, q.w, q.x, q.y, q.z. Velocities are slopes of a parabola
-/// fitted to `smooth_rows` rows (odd; below 3: finite differences of fourth order, for data without noise).
-/// Quaternions are normalised, with a warning where they deviate by more than rounding; sign flips are
-/// undone. Pieces shorter than 8 rows are left out.
-/// Errors: no recordings, a missing channel, orientation in only some recordings, rates that differ, a quaternion more
-/// than 1 % from unit length (with its row), a time channel (t, t_s or time) with steps other than the recording's, a
-/// jump of the position, no piece long enough.
+/// fitted to `smooth_rows` rows (odd; below 3: finite differences of fourth order, for data without noise). Quaternions
+/// are normalised, with a warning where they deviate by more than rounding; sign flips are undone. Pieces shorter than
+/// 8 rows are left out. Errors: no recordings, a missing channel, orientation in only some recordings, rates that
+/// differ, a quaternion more than 1 % from unit length (with its row), a time channel (t, t_s or time) with steps other
+/// than the recording's, a jump of the position, no piece long enough.
 Result<Motion> motion_of(std::span<const Recording> recordings, int smooth_rows = 0);
 
-/// Interpolates between rows by a Catmull–Rom cubic over the four rows around.
-///
-/// Precondition: 0 <= row <= rows − 1, values not empty.
+/// Interpolates by a Catmull–Rom cubic over the four rows around. Precondition: 0 <= row <= rows − 1, values not empty.
 Triple at_row(std::span<const Triple> values, double row);
 Quad at_row(std::span<const Quad> values, double row);  ///< normalised
 

@@ -1,8 +1,7 @@
 #pragma once
 // Segmentation of motion at critical events: zeros or extrema of a channel or of a signal derived from the motion.
 //
-// Source: L.-M. Reissell and D. K. Pai (2001), section 4.1.1 (a leaf is cut where it stalls: its forward speed in its
-// own plane is zero).
+// Source: L.-M. Reissell and D. K. Pai (2001), section 4.1.1 (a leaf is cut where its forward speed in its plane is 0).
 
 #include <span>
 #include <string>
@@ -62,9 +61,7 @@ std::vector<std::vector<T>> by_stretch(std::span<const Segment> segments, std::s
 
 /// Whether height is bounded: its variance within windows of a quarter of the longest stretch is less than 1.7 times
 /// that within a sixteenth. The ratio is 1 for bounded motion, 4 for a random walk, 16 for a fall. False where a
-/// quarter is shorter than 8 segments of mean duration.
-///
-/// Precondition: `segments` are of the motion, at least one.
+/// quarter is shorter than 8 segments of mean duration. Precondition: `segments` are of the motion, at least one.
 bool height_is_bounded(const Motion& motion, std::span<const Segment> segments);
 
 }  // namespace wisp::chain

@@ -26,12 +26,10 @@ struct FeatureTable {
   std::size_t rows() const { return features == 0 ? 0 : values.size() / features; }
 };
 
-/// The whole rows of one segment as a separate piece of motion that begins at the origin and, where heading is free,
-/// leads along x.
+/// One segment's whole rows as a piece of motion that begins at the origin and, where heading is free, leads along x.
 MotionPiece cut_out(const Motion& motion, const Segment& segment, bool heading_free);
 
-/// Features of segments. Where heading is free, vectors are relative to the segment's direction over ground. A constant
-/// feature is 0.
+/// Features of segments. Where heading is free, vectors are relative to the direction over ground. Constant ones are 0.
 FeatureTable segment_features(const Motion& motion, std::span<const Segment> segments, bool heading_free);
 
 struct Modes {
@@ -41,8 +39,7 @@ struct Modes {
   double silhouette = 0;           ///< −1 … 1, high for compact, well-separated modes
 };
 
-/// Clusters the first `learned` segments by k-means; the others are assigned to the nearest centroid.
-/// Errors: as k_means().
+/// Clusters the first `learned` segments by k-means; the others go to the nearest centroid. Errors: as k_means().
 Result<Modes> sorted_into_modes(const FeatureTable& table, std::size_t learned, int modes, std::uint64_t seed);
 
 /// Sequences of modes, one per stretch of consecutive segments.
@@ -55,9 +52,8 @@ struct ModeChain {
 };
 
 /// Counts transitions from each mode, or each pair of modes. A pair that was never followed takes the probabilities of
-/// its last mode, and a mode that was never followed the overall frequencies, so every walk can continue.
-///
-/// Precondition: modes >= 1, every mode of the sequences is below `modes`; history is 1 or 2.
+/// its last mode, and a mode that was never followed the overall frequencies, so every walk can continue. Precondition:
+/// modes >= 1, every mode of the sequences is below `modes`; history is 1 or 2.
 ModeChain counted_chain(const ModeSequences& sequences, int modes, int history);
 
 /// Mean natural log probability of the sequences' transitions under the chain: −ln(modes) for a uniform chain. A
@@ -88,14 +84,12 @@ RealisedSegments spline_segments(const SortedSegments& from, bool heading_free);
 Result<RealisedSegments> system_segments(const SortedSegments& from, int degree, std::uint64_t seed);
 
 /// Splits segments into halves, and clusters the first and the second halves of each mode into two modes each: a mode
-/// becomes a chain of four.
-/// Errors: more than 64 modes in total; as k_means().
+/// becomes a chain of four. Errors: more than 64 modes in total; as k_means().
 Result<RealisedSegments> half_segments(const SortedSegments& from, bool heading_free, std::uint64_t seed);
 
 struct SegmentStoreOptions {
   bool heading_free = true;
-  std::size_t max_bytes = 4'000'000;  ///< > 0, maximum size of all segments: excess ones are dropped, from the
-                                      ///< modes with most segments first
+  std::size_t max_bytes = 4'000'000;  ///< > 0, maximum size of all segments: excess is dropped from the largest modes
   bool bounded_height = false;        ///< segments keep their initial height and join others at a similar one
   int breadth = 0;  ///< 0 … 256: number of best-joining successors per segment and mode; 0: any segment of the mode may
                     ///< follow

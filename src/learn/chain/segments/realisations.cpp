@@ -84,7 +84,7 @@ void align_signs(std::span<MotionPiece* const> pieces) {
   }
 }
 
-// Replaces the rows of one mode's pieces by the values of their splines.
+// Replaces each piece of one mode by a spline, projected on the mode's kComponents largest principal components.
 void smooth_mode(std::span<MotionPiece* const> pieces, std::map<int, MatrixXd>& smoothers) {
   if (pieces.empty()) return;
   align_signs(pieces);

@@ -12,7 +12,7 @@ namespace {
 // Attitude has more weight than velocity or spin: the eye sees a jump of attitude first.
 constexpr double kAttitudeWeight = 1.5;
 
-// Weight of height, above all others: a join moves the body by the difference in height, but blends other differences.
+// Weight of height, above all others: play moves the body to make up for a step in height, but blends other steps.
 constexpr double kHeightWeight = 3;
 
 // States of a body at the ends of segments, in groups of three numbers. With orientation: velocity, angular velocity

@@ -131,6 +131,7 @@ ReportSection section_of(const Recording& recording, const Motion& motion) {
 // Coherence that independent series exceed in one of twenty cases (G. C. Carter, "Coherence and time delay estimation",
 // Proc. IEEE 75, 1987); overlapping segments count half.
 double coherence_by_chance(std::size_t segments) {
+  if (segments < kMinSegments) return 1;
   return 1 - std::pow(0.05, 1 / std::max(1.0, static_cast<double>(segments - 1) / 2));
 }
 

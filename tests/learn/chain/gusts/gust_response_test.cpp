@@ -96,6 +96,12 @@ TEST(GustResponse, WhatTheWindDoesNotMoveHasNoResponse) {
   EXPECT_NEAR(fit->response.ground.press, 0, 1e-6);
 }
 
+TEST(GustResponse, TwinsOfTwoRatesAreRefused) {
+  MadePairs pairs = made_pairs(0.85, 0.12);
+  pairs.calm.rate_hz = 30;
+  EXPECT_FALSE(gust_pairs(pairs.windy, pairs.calm));
+}
+
 TEST(GustResponse, PairsThatDoNotMatchAreErrors) {
   const MadePairs pairs = made_pairs(0.8, 0.2);
   EXPECT_THAT(gust_pairs(pairs.windy, slice(pairs.calm, 0, 120 * 5)).error().message, HasSubstr("24 and 5"));
