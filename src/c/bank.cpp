@@ -280,7 +280,7 @@ wisp_status wisp_bank_polyline(const wisp_bank* bank, wisp_instance instance, fl
 
 wisp_status wisp_bank_look(wisp_bank* bank, float right_x, float right_z) {
   if (!(std::abs(std::hypot(right_x, right_z) - 1) < 0.01F)) {
-    return fail(WISP_BAD_ARGUMENT, "%s was given (%g, %g), expected a unit vector", __func__,
+    return fail(WISP_BAD_ARGUMENT, "%s was given (%f, %f), expected a unit vector", __func__,
                 static_cast<double>(right_x), static_cast<double>(right_z));
   }
   return on_body(__func__, bank, [&](wisp::BodyFacet& body) { body.look(right_x, right_z); });

@@ -47,7 +47,7 @@ wisp_status fail(wisp_status status, const Error& error);
 wisp_status null_argument(const char* function);
 wisp_status not_alive(const char* function);
 
-/// Checks that a buffer is not null and has the stated number of values, or more; stores an error otherwise.
+/// Checks that a buffer is not null and has `expected` values (`or_more`: at least); stores an error otherwise.
 bool buffer_is_right(const char* function, const void* values, std::size_t found, std::size_t expected,
                      bool or_more = false);
 

@@ -260,6 +260,7 @@ double rounded_step(double step) {
 Result<Recording> resampled(const Recording& recording, const std::vector<double>& times) {
   constexpr double kGap = 1.5, kUsual = 0.5;  // in steps: longest interpolated gap; largest deviation of a usual step
   constexpr double kMaxGrowth = 1000;         // maximum number of resulting rows per given row, to bound memory
+  constexpr double kRounding = 1e-5;          // in steps: deviation within which two times are equal
   std::vector<double> steps;
   for (std::size_t t = 1; t < times.size(); ++t) {
     steps.push_back(times[t] - times[t - 1]);
@@ -274,11 +275,10 @@ Result<Recording> resampled(const Recording& recording, const std::vector<double
     if (std::abs(step - middle) > kUsual * middle) continue;
     square += (step / middle - 1) * (step / middle - 1), sum += step, ++usual;
   }
-  if (usual < 0.5 * static_cast<double>(steps.size())) {
+  if (usual < 0.5 * static_cast<double>(steps.size()))
     return Error{
         recording.source +
         ": time goes on by steps of no usual length; resample the table to one rate, or say --rate HZ or --dt S"};
-  }
   const double step = rounded_step(sum / usual);
   Recording out = slice(recording, 0, 0);
   out.rate_hz = 1 / step;
@@ -300,17 +300,17 @@ Result<Recording> resampled(const Recording& recording, const std::vector<double
     for (std::size_t c = 0; c < out.channels.size(); ++c) {
       const auto& samples = recording.channels[c].samples;
       const bool there = gap <= kGap * step || share == 0;
-      const double past = in_steps[c] && share < 1 ? 0 : share;
-      out.channels[c].samples.push_back(there ? samples[at] + past * (samples[at + 1] - samples[at])
-                                              : std::numeric_limits<double>::quiet_NaN());
+      const double past = in_steps[c] && share < 1 ? 0 : share, from = samples[at], to = samples[at + 1];
+      const double value = past < kRounding ? from : past > 1 - kRounding ? to : from + past * (to - from);
+      out.channels[c].samples.push_back(there ? value : std::numeric_limits<double>::quiet_NaN());
       if (there) errors[c].add(samples, nearest, past);
     }
     for (std::size_t f = 0; f < out.flags.size(); ++f) out.flags[f].rows.push_back(recording.flags[f].rows[nearest]);
-    if (!recording.episode_ids.empty()) out.episode_ids.push_back(recording.episode_ids[nearest]);
   }
   double worst = 0;
   for (const LineError& one : errors) worst = std::max(worst, one.share());
-  out.rate_note = {"the clock is uneven by " + number_text(100 * std::sqrt(square / usual), 2) +
+  out.rate_note = {(out.rate_note.guessed ? out.rate_note.text + "; " : "") + "the clock is uneven by " +
+                       number_text(100 * std::sqrt(square / usual), 2) +
                        " % of a step: resampled by straight lines, which may be wrong by " +
                        number_text(100 * worst, 2) + " % of a channel's deviation",
                    true};
@@ -341,7 +341,7 @@ std::optional<TimeStep> step_of(const std::vector<double>& times, double resolut
 
 double resolution_of(std::string_view number) {
   if (number.find_first_of("eEdD") != number.npos) return 0;
-  const std::size_t mark = number.find_first_of(".,");
+  const std::size_t mark = number.find_first_of(".,", number.find(':') + 1);  // points before a colon are a date's
   return mark == number.npos ? 1 : std::pow(10.0, -static_cast<double>(number.size() - mark - 1));
 }
 

@@ -96,10 +96,10 @@ std::optional<double> seconds_of(std::string_view unit);
 /// 2024/01/31T13:05Z or 31.01.2024, or since midnight of a time of day alone; nothing for other text.
 std::optional<double> seconds_of_date(std::string_view text);
 
-/// Resamples rows recorded at `times`, in seconds, to an even step: the mean of the steps near the median, rounded by
-/// at most 1 %. Interpolates linearly, or repeats the last sample of a channel that moves in steps. rate_note reports
-/// the unevenness of the clock and the interpolation error. Gaps of more than 1.5 steps are missing samples. Errors:
-/// time does not increase; most steps are far from the median; more than 1000 rows would result per given row.
+/// Resamples rows of one episode, recorded at `times` in seconds, to an even step: the mean of the steps near the
+/// median, rounded by at most 1 %. Interpolates linearly, or repeats the last sample of a channel that moves in steps.
+/// rate_note reports the unevenness of the clock and the interpolation error. Gaps of more than 1.5 steps are missing
+/// samples. Errors: time does not increase; most steps are far from the median; over 1000 rows would result per row.
 Result<Recording> resampled(const Recording& recording, const std::vector<double>& times);
 
 /// Step of time, in the column's unit.

@@ -15,7 +15,7 @@ namespace {
 struct Shape {
   std::size_t cells = 0;
   std::size_t filled = 0;  // number of cells before the empty ones at the end
-  bool numbers = true;     // all cells are numbers or missing
+  bool numbers = true;     // all cells are numbers, dates, times of day or missing
   bool any_number = false;
 };
 
@@ -26,7 +26,7 @@ Shape shape_of(std::string_view line, char separator) {
     if (!cell.text.empty()) shape.filled = shape.cells;
     const bool number = number_of(cell, separator).has_value();
     shape.any_number |= number;
-    shape.numbers &= number || is_missing(cell);
+    shape.numbers &= number || is_missing(cell) || seconds_of_date(cell.text).has_value();
   });
   return shape;
 }
@@ -85,8 +85,8 @@ std::vector<std::string> units_in(std::string_view line, char separator) {
 // Returns the separator that a line such as `sep=;` states for Excel; NUL for any other line.
 char told_separator(std::string_view line) {
   const std::string_view said = cell_of(line).text;
-  const bool told = said.size() == 5 && (said.substr(0, 4) == "sep=" || said.substr(0, 4) == "SEP=");
-  return told ? said[4] : '\0';
+  const bool told = said.size() <= 5 && (said.substr(0, 4) == "sep=" || said.substr(0, 4) == "SEP=");
+  return !told ? '\0' : said.size() == 5 ? said[4] : '\t';  // cell_of() removes a tab
 }
 
 }  // namespace
@@ -242,7 +242,7 @@ Result<std::vector<std::string>> CsvReader::State::read_names(const CsvOptions& 
   while (names.size() > 1 && names.back().empty()) names.pop_back();
   const bool numbers = csv::is_row(lines.text(), separator);
   if (!options.columns.empty()) {
-    if (options.columns.size() != names.size()) {
+    if (options.columns.size() < names.size() || options.columns.size() > cells.size()) {
       return lines.at_row("has " + std::to_string(names.size()) + " columns, --columns names " +
                           std::to_string(options.columns.size()) + "; name all of them, in their order");
     }
@@ -288,10 +288,11 @@ Result<void> CsvReader::State::check_columns(const std::vector<std::string>& nam
   for (const std::string& name : names) {
     const ColumnName column = split_name(name);
     any_role |= !column.role.empty();
-    if (column.name.empty() || (column.role.empty() && column.name == "episode")) continue;
-    available.push_back(column.name);
-    if (seen.insert(column.role == "flag" ? name : column.name).second) continue;
-    if (own_form || role_of(column, options)) {
+    const bool episode = column.role.empty() && column.name == "episode";
+    if (column.name.empty()) continue;
+    if (!episode) available.push_back(column.name);
+    if (seen.insert(episode ? ":episode" : column.role == "flag" ? name : column.name).second) continue;
+    if (own_form || episode || role_of(column, options)) {
       return lines.at_row("two columns are named " + csv::shown(column.name) +
                           "; rename one, or name all with --columns");
     }
@@ -308,10 +309,11 @@ Result<void> CsvReader::State::check_columns(const std::vector<std::string>& nam
                                      ") state no roles; name them with --inputs and --outputs");
 }
 
-void CsvReader::State::find_time(const std::vector<std::string>& names) {
+// Selects the first time column that is not `still`, as a date is beside a time of day; otherwise the last one.
+void CsvReader::State::find_time(const std::vector<std::string>& names, const std::vector<bool>& still) {
   for (std::size_t k = 0; !own_form && k < names.size(); ++k) {
     const ColumnName column = split_name(names[k]);
-    if (time || !column.role.empty() || !csv::names_time(column.name)) continue;
+    if ((time && !still[time->place]) || !column.role.empty() || !csv::names_time(column.name)) continue;
     time = Time{k, column.name, column.unit.empty() ? csv::unit_in_time_name(column.name) : column.unit};
   }
 }
@@ -339,9 +341,11 @@ Result<void> CsvReader::State::read_columns(const CsvOptions& options) {
   if (!names) return names.error();
   const auto ahead = lines.look_ahead(kLookedAt - 1);
   if (!ahead) return ahead.error();
-  const std::vector<csv::Cell> last =
-      ahead->empty() ? std::vector<csv::Cell>{} : cells_of(ahead->back().text, separator);
+  const auto first = cells_of(ahead->size() < 2 ? std::string_view() : ahead->front().text, separator);
+  const auto last = cells_of(ahead->empty() ? std::string_view() : ahead->back().text, separator);
+  std::vector<bool> still(names->size());  // columns with equal cells in both lines
   for (std::size_t k = 0; k < names->size(); ++k) {
+    still[k] = k < std::min(first.size(), last.size()) && first[k].text == last[k].text;
     const bool text = k < last.size() && !csv::is_missing(last[k]) && !csv::number_of(last[k], separator) &&
                       !csv::names_time((*names)[k]);
     if (options.every_column && text && !own_form) {
@@ -352,7 +356,7 @@ Result<void> CsvReader::State::read_columns(const CsvOptions& options) {
     }
   }
   if (auto ok = check_columns(*names, options); !ok) return ok;
-  find_time(*names);
+  find_time(*names, still);
   return read_units();
 }
 
@@ -402,12 +406,12 @@ Result<void> CsvReader::State::learn_step() {
   return {};
 }
 
-// Parses a number, or the seconds of a date.
+// Parses a number, or the seconds of a date or time of day, which have no other unit.
 std::optional<double> CsvReader::State::time_in(const csv::Cell& cell) {
   const auto number = csv::number_of(cell, separator);
   if (number) return number;
   const auto seconds = csv::seconds_of_date(csv::trimmed(cell.text));
-  time->dated |= seconds.has_value();
+  if (seconds) time->dated = true, time->unit.clear();
   return seconds;
 }
 

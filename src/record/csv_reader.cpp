@@ -171,7 +171,7 @@ Result<void> CsvReader::State::check_time(std::optional<double> now, std::string
     return {};
   }
   if (now && (!before || std::abs(*now - *before - time->step) <= time->tolerance)) return {};
-  time_was_uneven = now.has_value();
+  time_was_uneven = now.has_value() && !time->episode;
   const std::string found = now ? "goes on by " + number_text(*now - *before, 6) : "is " + shown(text);
   std::string message =
       "column " + shown(time->name) + " " + found + ", expected steps of " + number_text(time->step, 6) + " as above; ";
@@ -280,7 +280,7 @@ Result<void> CsvReader::State::add_cell(Recording& recording, const Column& colu
       if (code != std::errc() || end != cell.text.data() + cell.text.size()) {
         return found("an episode's whole number");
       }
-      if (time && !recording.episode_ids.empty() && recording.episode_ids.back() != id) time->before.reset();
+      if (time && std::exchange(time->episode, id) != id) time->before.reset();
       recording.episode_ids.push_back(id);
       return {};
     }

@@ -80,8 +80,9 @@ struct CsvReader::State {
     double seconds = 1;  // seconds per unit
     double step = 0;     // between rows, in units; 0: not determined
     double tolerance = 0;
-    std::optional<double> before{};  // value in the previous row
-    bool dated = false;              // the column holds calendar dates
+    std::optional<double> before{};         // value in the previous row
+    bool dated = false;                     // the column holds dates or times of day
+    std::optional<std::int64_t> episode{};  // id in the previous row
   };
 
   // Evidence on the meaning of a column's commas.
@@ -96,13 +97,14 @@ struct CsvReader::State {
   std::optional<Time> time{};
   char separator = '\0';
   bool own_form = false;
-  bool uneven_time = false, time_was_uneven = false;  // steps need not be even; an uneven step was an error
-  std::vector<double> times{};                        // time of every row in seconds, stored if uneven_time
-  bool plain_columns = false;  // all columns are channels or skipped, and blanks are no separator
-  bool commas = false;         // a number so far had a comma
-  bool points = false;         // a number so far had a point
-  bool decimals = false;       // a comma so far can only be a decimal one
-  std::vector<Marks> marks{};  // one per column
+  bool uneven_time = false,
+       time_was_uneven = false;  // accept uneven steps; one was refused, in a table without episodes
+  std::vector<double> times{};   // time of every row in seconds, stored if uneven_time
+  bool plain_columns = false;    // all columns are channels or skipped, and blanks are no separator
+  bool commas = false;           // a number so far had a comma
+  bool points = false;           // a number so far had a point
+  bool decimals = false;         // a comma so far can only be a decimal one
+  std::vector<Marks> marks{};    // one per column
   std::vector<double> row{};
 
   // Up to the first row: csv_head.cpp.
@@ -111,7 +113,7 @@ struct CsvReader::State {
   Result<std::vector<std::string>> read_names(const CsvOptions& options);
   Result<void> add_column(const std::string& text, const CsvOptions& options);
   Result<void> check_columns(const std::vector<std::string>& names, const CsvOptions& options) const;
-  void find_time(const std::vector<std::string>& names);
+  void find_time(const std::vector<std::string>& names, const std::vector<bool>& still);
   Result<void> read_units();
   Result<void> read_columns(const CsvOptions& options);
   Result<void> learn_step();

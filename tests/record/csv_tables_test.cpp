@@ -50,6 +50,7 @@ TEST(CsvTable, SeparatorsAndDecimalMarksAreFound) {
 
 TEST(CsvTable, ExcelsSeparatorLineIsObeyed) {
   expect_samples("sep=;\nu;y\n1;4\n2,5;5\n-3e-4;6\n");
+  expect_samples("sep=\t\nu\ty\n1\t4\n2.5\t5\n-3e-4\t6\n");
   expect_samples("\xef\xbb\xbf\"sep=|\"\r\nu|y\r\n1|4\r\n2.5|5\r\n-3e-4|6\r\n");
 }
 
@@ -73,6 +74,22 @@ TEST(CsvTable, WithoutAHeaderTheColumnsAreNamed) {
   EXPECT_THAT(complaint("1 2 3\n4 5 6\n"), AllOf(HasSubstr("t.csv, row 1"), HasSubstr("give names to its 3 columns"),
                                                  HasSubstr("--columns u1,u2,y1")));
   EXPECT_THAT(complaint("1 2 3\n4 5 6\n", named), HasSubstr("has 3 columns, --columns names 2"));
+}
+
+TEST(CsvTable, AFirstRowWithADateIsNoHeader) {
+  const auto recording = parse("2024-01-31 13:05:00,1,4\n2024-01-31 13:05:05,2,5\n2024-01-31 13:05:10,3,6\n",
+                               {.inputs = {"u"}, .outputs = {"y"}, .columns = {"date", "u", "y"}});
+  ASSERT_TRUE(recording) << recording.error().message;
+  EXPECT_THAT(recording->channels[0].samples, ElementsAre(1, 2, 3));
+  EXPECT_DOUBLE_EQ(recording->rate_hz, 0.2);
+}
+
+TEST(CsvTable, WithoutAHeaderTheFirstRowMayEndInAMissingSample) {
+  const auto recording =
+      parse("1,\n2,5\n3,6\n", {.rate_hz = 1, .inputs = {"u"}, .outputs = {"y"}, .columns = {"u", "y"}});
+  ASSERT_TRUE(recording) << recording.error().message;
+  EXPECT_THAT(recording->channels[0].samples, ElementsAre(1, 2, 3));
+  EXPECT_THAT(recording->channels[1].samples, ElementsAre(testing::IsNan(), 5, 6));
 }
 
 TEST(CsvTable, WhatIsMissingIsSaidInManyWays) {
@@ -121,6 +138,7 @@ TEST(CsvTable, ColumnsWithoutANameAndUnwantedTwinsAreNoMatter) {
   expect_samples(",u,y,z,z\n0,1,4,0,0\n1,2.5,5,0,0\n2,-3e-4,6,0,0\n");
   EXPECT_THAT(complaint("y:,u:u\n1,2\n", {.rate_hz = 1}), HasSubstr("column 1 has no name"));
   EXPECT_THAT(complaint("u,y,y\n1,2,3\n"), HasSubstr("two columns are named \"y\"; rename one"));
+  EXPECT_THAT(complaint("episode,u,y,episode\n1,1,2,1\n"), HasSubstr("two columns are named \"episode\"; rename one"));
 }
 
 TEST(CsvTable, NumbersThatMeanTwoThingsAreRefused) {

@@ -14,7 +14,9 @@ namespace wisp::csv_test {
 namespace {
 
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 Result<Recording> parse(const std::string& text, const CsvOptions& options = {}) {
   std::istringstream stream(text);
@@ -145,8 +147,26 @@ TEST(Csv, AColumnOfTimeGivesTheRate) {
   EXPECT_DOUBLE_EQ(rate_by_time("time,u,y\n2024-01-01T08:00:00+02:00,1,2\n2024-01-01T08:00:05+02:00,2,3\n"), 0.2);
 }
 
+TEST(Csv, DatesAndTimesOfDayAreInSecondsWhateverTheColumnsNameSays) {
+  const std::string dates = ",u,y\n2024-01-31 13:05:00,1,2\n2024-01-31 13:05:05,2,3\n";
+  for (const char* name : {"Timestamp (UTC)", "time[UTC]", "Date (yyyy-mm-dd)"}) {
+    EXPECT_DOUBLE_EQ(rate_by_time(name + dates), 0.2) << name;
+  }
+  EXPECT_DOUBLE_EQ(rate_by_time("Time (h),u,y\n08:00:00,1,2\n08:00:05,2,3\n"), 0.2);
+}
+
+TEST(Csv, BesideADateThatStaysTheSameATimeOfDayGivesTheRate) {
+  EXPECT_DOUBLE_EQ(rate_by_time("date,time,u,y\n2024-01-31,13:05:00,1,2\n2024-01-31,13:05:05,2,3\n"), 0.2);
+  EXPECT_DOUBLE_EQ(rate_by_time("date,time,u,y\n2024-01-31,00:00,1,2\n2024-02-01,00:00,2,3\n"), 1 / 86400.0);
+}
+
 TEST(Csv, AColumnOfTimeBeginsAnewWithEveryEpisode) {
   EXPECT_DOUBLE_EQ(rate_by_time("t,episode,u,y\n0,1,1,2\n0.1,1,2,3\n0,2,2,3\n0.1,2,3,4\n"), 10);
+}
+
+TEST(Csv, UnevenTimeInATableWithEpisodesIsNamed) {
+  EXPECT_THAT(complaint("t,episode,u,y\n0,1,1,2\n0.1,1,2,3\n0.25,1,2,3\n0,2,2,3\n0.1,2,3,4\n", {.inputs = {"u"}}),
+              HasSubstr("row 4: column \"t\" goes on by 0.15, expected steps of 0.1"));
 }
 
 TEST(Csv, ACountOfRowsIsNoTime) {
@@ -166,6 +186,24 @@ TEST(Csv, UnevenTimeIsResampledAndAGapIsMissing) {
   EXPECT_THAT(even->rate_note.text, HasSubstr("resampled by straight lines"));
   EXPECT_TRUE(parse(table, {.rate_hz = 10, .inputs = {"u"}})->rate_note.text.empty());
   EXPECT_THAT(complaint("time,u\n0,1\n0.1,1\n0.2,1\n0.15,1\n", {.inputs = {"u"}}), HasSubstr("time does not go on"));
+}
+
+TEST(Csv, ResamplingKeepsASampleBesideAMissingOne) {
+  // The fourth new row is at 3 * 0.1 s, in double precision a little above 0.3 s.
+  const auto even = parse("time,y\n0,1\n0.1,\n0.2,3\n0.3,4\n0.4,\n0.53,6\n0.6,7\n", {.outputs = {"y"}});
+  ASSERT_TRUE(even) << even.error().message;
+  const std::vector<double>& samples = even->channels[0].samples;
+  ASSERT_GE(samples.size(), 4u);
+  EXPECT_EQ(samples[0], 1);
+  EXPECT_TRUE(std::isnan(samples[1]));
+  EXPECT_EQ(samples[2], 3);
+  EXPECT_EQ(samples[3], 4);
+}
+
+TEST(Csv, AnUnevenClockTakenAsMillisecondsIsSaidToBeBoth) {
+  const auto even = parse("time,u\n0,1\n20,2\n47,3\n60,4\n80,5\n100,6\n", {.inputs = {"u"}});
+  ASSERT_TRUE(even) << even.error().message;
+  EXPECT_THAT(even->rate_note.text, AllOf(HasSubstr("taken as milliseconds; "), HasSubstr("the clock is uneven by")));
 }
 
 TEST(Csv, AJitteredClockIsResampledAtItsRoundRateAndSaysTheTrueError) {
@@ -199,6 +237,16 @@ TEST(Csv, DatesSayTheRate) {
     ASSERT_TRUE(recording) << recording.error().message;
     EXPECT_NEAR(recording->rate_hz, 1.0 / 60, 1e-9) << table;
   }
+}
+
+TEST(Csv, DatesWithPointsAreEvenWithinTheSecondsThatAreWritten) {
+  std::string table = "time,u\n";
+  for (const std::string row : {"00,1", "02,2", "05,3", "07,4", "10,5"}) table += "31.01.2024 13:05:" + row + "\n";
+  const auto recording = parse(table, {.inputs = {"u"}});
+  ASSERT_TRUE(recording) << recording.error().message;
+  EXPECT_DOUBLE_EQ(recording->rate_hz, 0.4);
+  EXPECT_THAT(recording->rate_note.text, Not(HasSubstr("uneven")));
+  EXPECT_THAT(recording->channels[0].samples, ElementsAre(1, 2, 3, 4, 5));
 }
 
 TEST(Csv, TimeThatSaysNoRateIsRefused) {
@@ -278,6 +326,18 @@ TEST(Csv, IsReadAStretchAtATime) {
   EXPECT_EQ(*reader->read(chunk, 2), 1u);
   EXPECT_EQ(*reader->read(chunk, 2), 0u);
   EXPECT_EQ(chunk.channels[0].samples, (std::vector<double>{1, 2, 3}));
+}
+
+TEST(Csv, AnEpisodeMayBeginWithAStretch) {
+  std::istringstream stream("t,episode,u\n0,1,1\n0.1,1,2\n0,2,3\n0.1,2,4\n");
+  auto reader = CsvReader::open(stream, "test.csv", {.inputs = {"u"}});
+  ASSERT_TRUE(reader) << reader.error().message;
+  for (int stretch = 0; stretch < 2; ++stretch) {
+    Recording chunk = reader->header();
+    const auto rows = reader->read(chunk, 2);
+    ASSERT_TRUE(rows) << rows.error().message;
+    EXPECT_EQ(*rows, 2u);
+  }
 }
 
 TEST(Csv, ABadRecordingIsNotWritten) {

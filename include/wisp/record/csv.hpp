@@ -15,7 +15,7 @@
 namespace wisp {
 
 /// Interpretation of a table that does not describe itself. The file's own statements take precedence, except over
-/// `columns`, `inputs` and `outputs`. With `inputs` or `outputs`, other u: and y: columns need `every_column`.
+/// `columns`, `inputs` and `outputs`. If `inputs` or `outputs` is set, other u: and y: columns need `every_column`.
 struct CsvOptions {
   double rate_hz = 0;                        ///< samples per second; 0: from a time column, or usual_rate_hz
   double usual_rate_hz = 0;                  ///< rate assumed if nothing else states one; 0: an error then
@@ -70,8 +70,8 @@ class CsvReader {
 /// Reads a recording from a CSV file.
 /// Returns it with missing samples as NaN; numbers are the nearest doubles to the text. A time column with uneven
 /// steps, as written by a PC's logger, is resampled to its typical step by linear interpolation; `rate_note` reports
-/// this and its error. Gaps above 1.5 steps are missing samples. Errors: those of CsvReader, except for uneven time;
-/// no rows, time that does not increase or has no typical step, and a file that cannot be opened.
+/// this and its error. Gaps above 1.5 steps are missing samples. Errors: those of CsvReader, except for uneven time in
+/// a table without episodes; no rows, time that does not increase or has no typical step, a file that cannot be opened.
 Result<Recording> read_csv(const std::filesystem::path& path, const CsvOptions& options = {});
 
 /// Reads a recording from a stream; `name` stands for the file in messages. Uneven time needs a seekable stream.

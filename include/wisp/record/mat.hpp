@@ -12,7 +12,7 @@ namespace wisp {
 
 /// Selection of the variables that make a recording. A variable is named as in MATLAB: `u`, a field of a structure as
 /// `data.u`, one column of a matrix as `u(:,2)`. A matrix of several columns yields one channel per column: u1, u2, …;
-/// where no variable has such a name, it selects the column.
+/// unless a variable has that name, `u2` selects column 2 of `u`.
 struct MatOptions {
   double rate_hz = 0;         ///< samples per second; 0: by a scalar `fs` or `Ts` (seconds), or a vector `t` or `time`
   std::size_t max_bytes = 0;  ///< maximum of unpacked bytes; 0: 64 times the file's size, within 64 MB and 1 GB
