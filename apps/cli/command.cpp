@@ -126,14 +126,6 @@ std::vector<std::filesystem::path> files_written(const Flag& flag, const std::fi
   return files;
 }
 
-// Returns whether writing a file would overwrite an input or a numbered image of an input folder, also through a link.
-bool would_destroy(const std::filesystem::path& written, const std::string& input) {
-  std::error_code none;
-  if (!std::filesystem::exists(written, none) || std::filesystem::is_directory(written, none)) return false;
-  if (!std::filesystem::is_directory(input, none)) return std::filesystem::equivalent(written, input, none);
-  return is_numbered_image(written) && std::filesystem::equivalent(absolute(written).parent_path(), input, none);
-}
-
 // Returns the kind of a file by its extension; empty for other extensions, which any kind may have.
 std::string kind_of(const std::filesystem::path& name) {
   static const std::map<std::string, std::string> kinds = {
@@ -167,6 +159,13 @@ Result<void> check_names(const Command& command, const Arguments& arguments) {
 }
 
 }  // namespace
+
+bool would_destroy(const std::filesystem::path& written, const std::string& input) {
+  std::error_code none;
+  if (!std::filesystem::exists(written, none) || std::filesystem::is_directory(written, none)) return false;
+  if (!std::filesystem::is_directory(input, none)) return std::filesystem::equivalent(written, input, none);
+  return is_numbered_image(written) && std::filesystem::equivalent(absolute(written).parent_path(), input, none);
+}
 
 Result<void> check_outputs(const Command& command, const Arguments& arguments) {
   if (auto ok = check_names(command, arguments); !ok) return ok;

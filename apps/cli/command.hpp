@@ -1,6 +1,7 @@
 #pragma once
 // A command of the program: an entry of the table from which parser, help and docs/reference/cli.md are generated.
 
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <map>
@@ -137,6 +138,9 @@ std::string help(const std::string& words);
 
 /// Returns one line about the first unknown command or flag, with the nearest known one. Empty if all words are known.
 std::string wrong_words(std::span<const std::string> words);
+
+/// Returns whether writing a file would overwrite an input or a numbered image of an input folder, also through a link.
+bool would_destroy(const std::filesystem::path& written, const std::string& input);
 
 /// Checks file names. Errors: an output or one of its additional files would overwrite an input; an output's extension
 /// belongs to another kind of file; a file name contains a line break.

@@ -194,7 +194,7 @@ std::string leading(const std::vector<std::string>& words) {
 // Returns the command or group of commands named by the first words.
 std::string command_in(const std::vector<std::string>& words) {
   std::string name = leading(words);
-  while (!name.empty() && !is_command(name) && !is_group(name)) name.erase(std::min(name.size(), name.rfind(' ')));
+  while (!name.empty() && !is_command(name) && !is_group(name)) name.erase(name.rfind(' ') + 1 ? name.rfind(' ') : 0);
   return name;
 }
 

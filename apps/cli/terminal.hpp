@@ -25,7 +25,7 @@ class Terminal {
   Progress progress();
 
   /// Shows a report as the command's result: as text immediately, or as part of the JSON document at the end. Its
-  /// warnings are also written to standard error.
+  /// warnings go to standard error and into the JSON document, not into the text.
   void show(const Report& report);
 
   /// Adds a figure to the JSON result only.
@@ -34,7 +34,7 @@ class Terminal {
   /// Adds a table to the JSON result only. Rows are appended to a table of the same id, if there is one.
   void add(ReportTable table);
 
-  /// Prints the verdict of an intermediate result, for people.
+  /// Prints one line with the verdict of an intermediate result, whose name is `of`; silent with --json.
   void verdict(const std::string& of, const Report& report);
 
   /// Prints a warning, one line on standard error, and adds it to the result; the command continues.

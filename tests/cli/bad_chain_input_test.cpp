@@ -256,6 +256,12 @@ TEST_F(BadPair, TwinsThatAreNoneAreRefused) {
   EXPECT_THAT(not_validated(windy), HasSubstr("expected its twin as a third argument"));
   EXPECT_THAT(not_validated(falls + " " + calm()), HasSubstr("is not one of a pair"));
   EXPECT_THAT(not_validated(other + " " + calm()), HasSubstr("expected two of one pair"));
+  EXPECT_THAT(not_validated(windy + " " + calm() + " " + at("none.csv")), HasSubstr("none.csv: is one file too many"));
+}
+
+TEST_F(BadPair, ARangeIsOfBothTwins) {
+  const auto windy = record("windy.csv", gusts(1, "2"));
+  EXPECT_THAT(not_validated(windy + " " + calm(), "--range 1:120"), HasSubstr("have 2 and 2 episodes"));
 }
 
 TEST_F(BadPair, ClonesThatAreNoNumberOfEpisodesAreRefused) {
@@ -284,6 +290,8 @@ TEST_F(BadChainInput, AModelThatIsNoneOrNoChainIsExplained) {
   const auto falls = record("falls.csv", Falls{});
   EXPECT_THAT(refused("validate " + falls + " " + falls), HasSubstr("falls.csv: is not a .wisp model"));
   EXPECT_THAT(refused("validate " + at("flame.wisp") + " " + falls), HasSubstr("falls.csv: has 0 control points"));
+  EXPECT_THAT(refused("validate " + at("flame.wisp") + " " + falls + " --film " + at("f.mp4"), 2),
+              HasSubstr("--film is for segment chains of poses; this model is of an outline"));
   EXPECT_THAT(not_validated(falls, "--film " + at("f.gif")), HasSubstr("f.gif: cannot be written, expected a name"));
   EXPECT_THAT(not_validated(falls, "--film " + at("nowhere/f.mp4")), HasSubstr("nowhere does not exist"));
 }

@@ -214,6 +214,17 @@ TEST_F(ClipSound, EveryMeasureHasANameOfItsOwn) {
   EXPECT_EQ(wisp("validate " + at("m.wisp") + " " + at("clip.mp4") + " --wind-measure rms").status, 0);
 }
 
+TEST_F(ClipSound, FiguresShowTheLoudnessOfTheFramesThatAreValidated) {
+  write_clip("clip.mp4", {});
+  learned("clip.mp4");
+  for (const char* frames : {"1:300", "301:600"}) {
+    const Said said =
+        wisp("validate " + at("m.wisp") + " " + at("clip.mp4") + " --frames " + frames + " --figures " + at(frames));
+    ASSERT_EQ(said.status, 0) << said.err;
+  }
+  EXPECT_TRUE(file_text(at("1:300/sound.svg")) != file_text(at("301:600/sound.svg")));
+}
+
 // The 99.9th percentile of ten seconds is of half a frame.
 TEST_F(ClipSound, WhatAClipIsTooShortToTellIsSaid) {
   write_clip("clip.mp4", {});

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "cli/program.hpp"
 #include "wisp/capture/media/video.hpp"
@@ -19,6 +20,7 @@ using testing::HasSubstr;
 namespace fs = std::filesystem;
 
 constexpr int kWidth = 160, kHeight = 200, kFrames = 90;
+const std::string kFlame = WISP_SOURCE_DIR "/tests/c/models/flame.wisp";
 
 // A drop-shaped flame that sways and stretches, on black; `tapers` towards its tip.
 Image flame_frame(int frame, Point base = {80, 180}, double tapers = 0) {
@@ -182,6 +184,48 @@ TEST_F(Clip, AFlameIsDrawnOnTheCandleOfItsFilm) {
     const Said said = wisp(run + " --clip " + at("rec.csv") + flags);
     EXPECT_EQ(said.status, 2) << flags;
   }
+}
+
+TEST_F(Clip, AFilmThatARecordingNamesIsNotOverwritten) {
+  write_clip("film.mp4", kFrames);
+  fs::create_directories(at("frames"));
+  for (int k = 0; k < kFrames; ++k)
+    ASSERT_TRUE(write_png(at("frames/" + std::to_string(100 + k) + ".png"), flame_frame(k)));
+  ASSERT_EQ(wisp("capture flame " + at("film.mp4") + " -o " + at("film.csv")).status, 0);
+  ASSERT_EQ(wisp("capture flame --rate 30 " + at("frames") + " -o " + at("frames.csv")).status, 0);
+  for (const auto& [recording, named] : {std::pair{"film.csv", "film.mp4"}, {"frames.csv", "frames/100.png"}}) {
+    const std::string before = file_text(at(named));
+    const Said said = wisp("run " + kFlame + " --frames 2 --clip " + at(recording) + " -o " + at(named));
+    EXPECT_EQ(said.status, 2) << said.err;
+    EXPECT_THAT(said.err, HasSubstr("is a file that is read, and would be lost: give another name"));
+    EXPECT_TRUE(file_text(at(named)) == before) << named;
+  }
+}
+
+TEST_F(Clip, AFlameThatIsLitAfterAMinuteShowsItsCandle) {
+  constexpr int kBefore = 1900;
+  write_clip("short.mp4", kFrames);
+  ASSERT_EQ(wisp("capture flame " + at("short.mp4") + " -o " + at("short.csv")).status, 0);
+  auto film = VideoWriter::create(at("long.mp4"), {.width = kWidth, .height = kHeight, .rate_hz = 30});
+  ASSERT_TRUE(film) << film.error().message;
+  for (int k = 0; k < kBefore; ++k) ASSERT_TRUE(film->write(Image(kWidth, kHeight)));
+  for (int k = 0; k < kFrames; ++k) ASSERT_TRUE(film->write(flame_frame(k)));
+  ASSERT_TRUE(film->finish());
+  auto recording = read_csv(at("short.csv"));
+  ASSERT_TRUE(recording) << recording.error().message;
+  for (Channel& channel : recording->channels)
+    channel.samples.insert(channel.samples.begin(), kBefore, std::numeric_limits<double>::quiet_NaN());
+  for (RowFlag& flag : recording->flags) flag.rows.insert(flag.rows.begin(), kBefore, 0);
+  if (!recording->episode_ids.empty()) {
+    const auto first = recording->episode_ids.front();
+    recording->episode_ids.insert(recording->episode_ids.begin(), kBefore, first);
+  }
+  for (Attribute& attribute : recording->attributes) {
+    if (attribute.name == "source") attribute.value = at("long.mp4");
+  }
+  ASSERT_TRUE(write_csv(at("long.csv"), *recording));
+  const Said said = wisp("run " + kFlame + " --frames 2 --clip " + at("long.csv") + " -o " + at("flame.png"));
+  EXPECT_EQ(said.status, 0) << said.err;
 }
 
 TEST_F(Clip, TheSameSeedGivesTheSameBytes) {

@@ -142,6 +142,7 @@ TEST_F(Export, AFlagThatWouldDoNothingIsWrongUsage) {
   refused(kFlame + " --instances 2 -o " + at("a.json"), "--instances does nothing to a .json file");
   ASSERT_TRUE(write_model(at("calm.wisp"), sample_chain()));
   refused(at("calm.wisp") + " --wind 1 -o " + at("a.glb"), "has none");
+  refused(at("calm.wisp") + " --input wind.csv -o " + at("a.glb"), "--input drives a model's inputs");
   EXPECT_FALSE(fs::exists(at("a.c")) || fs::exists(at("a.glb")) || fs::exists(at("a.json")));
 }
 

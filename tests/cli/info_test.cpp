@@ -1,5 +1,6 @@
 // `wisp info --json`: all that a model's file holds. What is written again from it alone is the same file.
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "cli/program.hpp"
@@ -239,6 +240,14 @@ TEST_F(Info, AModelIsWrittenAgainFromItsJsonToTheByte) {
   for (const Model& model : {bounded_chain(), steered_chain(), flame_model(mirrored)}) {
     ASSERT_TRUE(write_model(at("m.wisp"), model));
     expect_complete(at("m.wisp"));
+  }
+}
+
+TEST_F(Info, FlagsOfARecordingAreRefusedForAModel) {
+  for (const std::string& flag : {"-o " + at("plot.png"), std::string("--inputs z"), std::string("--rate 30")}) {
+    const Said said = wisp("info " WISP_SOURCE_DIR "/tests/c/models/leaf.wisp " + flag);
+    EXPECT_EQ(said.status, 2) << flag;
+    EXPECT_THAT(said.err, HasSubstr("is of a recording, not of a model")) << flag;
   }
 }
 

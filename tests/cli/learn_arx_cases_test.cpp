@@ -239,10 +239,17 @@ TEST_F(LearnArxCases, AnExpertFindsPolesZerosGainAndTests) {
   }
 }
 
-TEST_F(LearnArxCases, FiguresOfManyOutputsSayWhichTheyLeaveOut) {
+TEST_F(LearnArxCases, FiguresOfManyChannelsSayWhichTheyLeaveOut) {
   Recording recording = system(400);
-  std::string outputs = "place";
-  for (const char* name : {"b", "c", "d", "e"}) {
+  std::string outputs = "place", inputs = "push";
+  std::mt19937_64 generator(5);
+  for (int k = 1; k < 17; ++k) {
+    Channel more{"u" + std::to_string(k), "", Role::kInput, {}};
+    for (std::size_t t = 0; t < 400; ++t) more.samples.push_back(static_cast<double>(generator() % 100));
+    inputs += "," + more.name;
+    recording.channels.push_back(std::move(more));
+  }
+  for (const char* name : {"b", "c", "d/s", "e"}) {
     Channel more = recording.channels[*find_channel(recording, "place")];
     more.name = name;
     for (std::size_t t = 0; t < more.samples.size(); ++t) more.samples[t] += static_cast<double>(t * t % 7);
@@ -250,13 +257,21 @@ TEST_F(LearnArxCases, FiguresOfManyOutputsSayWhichTheyLeaveOut) {
     outputs += std::string(",") + name;
   }
   ASSERT_TRUE(write_csv(folder_ / "many.csv", recording));
-  const Said said = run_wisp("learn arx " + at("many.csv") + " -o " + at("many.wisp") + " --inputs push --outputs " +
-                                 outputs + " --coupling diagonal --na 1 --nb 1 --nk 1 --figures " + at("many"),
-                             folder_);
+  const Said said =
+      run_wisp("learn arx " + at("many.csv") + " -o " + at("many.wisp") + " --inputs " + inputs + " --outputs " +
+                   outputs + " --coupling diagonal --na 1 --nb 1 --nk 1 --figures " + at("many"),
+               folder_);
   EXPECT_EQ(said.status, 0) << said.err;
   EXPECT_THAT(said.err, HasSubstr("figures are drawn of the first 4 of 5 outputs"));
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "many" / "step-d.png"));
+  EXPECT_THAT(said.err, HasSubstr("figures are drawn of the first 16 of 17 inputs"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "many" / "step-d-s.png"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "many" / "step-e.png"));
+}
+
+TEST_F(LearnArxCases, AModelIsWrittenWhoseFiguresCannotBe) {
+  std::ofstream(at("taken")) << "a file, and no folder";
+  EXPECT_EQ(learn(system(400), "--inputs push --na 1 --nb 1 --nk 1 --figures " + at("taken")).status, 1);
+  EXPECT_TRUE(std::filesystem::exists(at("m.wisp")));
 }
 
 TEST_F(LearnArxCases, ValidationSaysHowOftenTheModelsOwnIntervalsHold) {

@@ -174,6 +174,16 @@ TEST_F(LearnArxParts, WhatIsMissingOnTheCommandLineIsNamed) {
   EXPECT_FALSE(std::filesystem::exists(at("p.part")));
 }
 
+TEST_F(LearnArxParts, FlagsThatNeedRowsDoNotGoWithMerge) {
+  const std::string parts = write_parts(2);
+  for (const char* flag : {"--search na=1:2", "--range 1:100"}) {
+    const Said said = wisp("learn arx --merge" + parts + " -o " + at("m.wisp") + " " + flag);
+    EXPECT_EQ(said.status, 2) << flag;
+    EXPECT_THAT(said.err, HasSubstr("does not go with --merge: parts hold no rows")) << flag;
+  }
+  EXPECT_FALSE(std::filesystem::exists(at("m.wisp")));
+}
+
 TEST_F(LearnArxParts, APartTwiceOrOneMissingIsRefused) {
   const std::string parts = write_parts(3);
   const Said twice = wisp("learn arx --merge" + parts + " " + at("2.part") + " -o " + at("m.wisp"));

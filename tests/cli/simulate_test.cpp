@@ -38,6 +38,17 @@ TEST_F(Simulate, TheSameSeedGivesTheSameTruth) {
   EXPECT_EQ(file_text(at("a.truth.csv")), file_text(at("b.truth.csv")));
 }
 
+TEST_F(Simulate, AWindFromATableBlowsAtTheTablesOwnRate) {
+  std::ofstream(at("wind.csv")) << "time[s],u:wind[m/s]\n0,0\n0.5,0.5\n1,1\n1.5,1.5\n";
+  for (const char* rate : {"", " --rate 40"}) {
+    const Said said = wisp("simulate candle -o " + at("k.mp4") + " --seconds 0.2 --wind " + at("wind.csv") + rate);
+    ASSERT_EQ(said.status, 0) << said.err;
+    const auto truth = read_csv(at("k.truth.csv"));
+    ASSERT_TRUE(truth) << truth.error().message;
+    EXPECT_NEAR(truth->channels[*find_channel(*truth, "wind")].samples.back(), 0.2, 0.03) << rate;
+  }
+}
+
 TEST_F(Simulate, AFlameLearnedFromItsSoundFollowsTheSound) {
   ASSERT_EQ(wisp("simulate candle -o " + at("clip.mp4") + " --seconds 12 --seed 2").status, 0);
   const Said learned = wisp("learn flame " + at("clip.mp4") + " -o " + at("m.wisp") + " --json");

@@ -217,6 +217,12 @@ TEST_F(Tables, AModelIsValidatedOnColumnsOfOtherNames) {
               HasSubstr("channel y stands for the model's u and for its y: name another"));
 }
 
+TEST_F(Tables, AModelOfPlainOutputsIsNotFilmed) {
+  const Said said = wisp("validate " + model() + " " + plain() + " --film " + at("f.mp4"));
+  EXPECT_EQ(said.status, 1);
+  EXPECT_THAT(said.err, HasSubstr("is not a model of an outline, for which --film draws nothing"));
+}
+
 TEST_F(Tables, ARecordingOfAnotherRateIsRefused) {
   const std::string m = model();
   for (const std::string& line :

@@ -84,6 +84,7 @@ TEST_F(Usage, HelpListsAllCommandsWithWhatTheyDoInLinesOfAHundredLetters) {
   EXPECT_EQ(wisp("help learn arx").out, wisp("learn arx --help").out);
   EXPECT_THAT(wisp("help learn").out, testing::AllOf(HasSubstr("learn leaf"), testing::Not(HasSubstr("capture"))));
   EXPECT_EQ(wisp("learn --help").out, wisp("help learn").out);
+  EXPECT_EQ(wisp("dance --help").out, said.out);
   EXPECT_EQ(wisp("-V").out, wisp("--version").out);
   EXPECT_EQ(wisp("help lern").status, 2);
   for (const char* about : {"", "capture flame", "learn arx", "learn leaf", "validate", "run", "export"}) {

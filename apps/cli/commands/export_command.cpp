@@ -70,7 +70,7 @@ Result<Flipbook> flame_flipbook(const Model& model, const Take& take, const Page
       top = std::max(top, points[k + 1]);
     }
   }
-  // The smallest halo nearly fits into the margin; fade_edges() removes the rest.
+  // At the minimum of glow_reach, the halo nearly fits into the margin; fade_edges() removes the rest.
   const FlameStyle style{.glow_reach = 0.25F, .candle = false};
   FlameScene scene;
   const float across = right - left + 2 * kHalo;

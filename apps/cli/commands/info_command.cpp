@@ -1,4 +1,4 @@
-// `wisp info`: describes a model file, or remarks on a recording.
+// `wisp info`: describes a model file, or examines a recording before a model is learned from it.
 
 #include "commands/commands.hpp"
 #include "flags/recordings.hpp"
@@ -54,6 +54,9 @@ Result<void> run_info(const Arguments& arguments, Terminal& terminal) {
   if (!bytes) return bytes.error();
   const auto model = parse_model(*bytes, arguments.positional());
   if (!model) return model.error();
+  auto of_tables = refuse(arguments, {"output", "inputs", "outputs", "prepare", "columns", "rate", "dt"},
+                          "is of a recording, not of a model");
+  if (!of_tables) return of_tables;
   auto report = model_report(*model);
   if (!report) return report.error();
   if (terminal.json()) report->append(model_contents(*model));

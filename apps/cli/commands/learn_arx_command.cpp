@@ -109,8 +109,10 @@ Result<ArxPart> part_of_tables(const ArxRecipe& recipe, const Arguments& argumen
 }
 
 // Merges the named part files. Errors: a file that cannot be read, is no part, is damaged, or is of another model than
-// the first (each with the file's name); a number of parts other than --expect.
+// the first (each with the file's name); a number of parts other than --expect; a flag that needs rows.
 Result<ArxPart> merged_parts(const Arguments& arguments) {
+  const auto rowless = refuse(arguments, {"search", "range"}, "does not go with --merge: parts hold no rows");
+  if (!rowless) return rowless.error();
   const auto& paths = arguments.positionals();
   auto whole = read_part(paths.front());
   if (!whole) return whole;
@@ -208,8 +210,8 @@ std::vector<Flag> search_flags() {
   return flags;
 }
 
-// Reads the options of the search from the flags. `whole`: the recordings without --range; --validate selects rows of
-// these.
+// Reads the options of the search from the flags. `whole`: all rows of the recordings, before --range is applied; the
+// rows of --validate are counted in them.
 Result<ArxSearch> search_of(const std::vector<Recording>& whole, const Arguments& arguments) {
   auto search = parse_grid(arguments);
   if (!search) return search;
@@ -330,19 +332,21 @@ Result<void> run_learn_arx(const Arguments& arguments, Terminal& terminal) {
   auto fit = learned(*recipe, arguments, terminal);
   if (!fit) return fit.error();
   if (arguments.has("range")) fit->model.training.recipe.push_back({"range", arguments.text("range")});
-  if (arguments.has("figures")) {
-    if (auto ok = write_arx_figures(arguments.text("figures"), fit->model, fit->report, terminal); !ok) return ok;
-  }
   const std::string output = model_path(arguments);
-  if (spectral_radius(std::get<ArxModel>(fit->model.dynamics)) < 1) return hand_over(*fit, output, terminal);
-  // Reached with --keep-unstable only: the report is complete, so the exit status is 0 although no model is written.
-  terminal.show(fit->report);
-  terminal.add("output", {});
-  if (output.empty()) return {};
-  terminal.add("not_written", output);
-  terminal.warn(output + " was not written: an unstable model cannot be played" +
-                (std::filesystem::exists(output) ? "; the file of that name is an older one" : ""));
-  return {};
+  if (spectral_radius(std::get<ArxModel>(fit->model.dynamics)) < 1) {
+    if (auto ok = hand_over(*fit, output, terminal); !ok) return ok;
+  } else {
+    // Reached with --keep-unstable only: the report is complete, so the exit status is 0 although no model is written.
+    terminal.show(fit->report);
+    terminal.add("output", {});
+    if (!output.empty()) {
+      terminal.add("not_written", output);
+      terminal.warn(output + " was not written: an unstable model cannot be played" +
+                    (std::filesystem::exists(output) ? "; the file of that name is an older one" : ""));
+    }
+  }
+  if (!arguments.has("figures")) return {};
+  return write_arx_figures(arguments.text("figures"), fit->model, fit->report, terminal);
 }
 
 std::vector<Flag> arx_flags() {

@@ -94,7 +94,7 @@ std::optional<SceneKind> scene_of(const Arguments& arguments) {
   return word == "candle" ? SceneKind::kCandle : word == "cake" ? SceneKind::kCake : SceneKind::kLeaves;
 }
 
-// Returns the models that come with Wisp, those that the scene can show first. Errors: no model is found.
+// Returns the models that come with Wisp, beginning with those that the scene can show. Errors: no model is found.
 Result<std::vector<std::filesystem::path>> models_of_our_own(std::optional<SceneKind> scene) {
   auto models = shipped_models();
   if (models.empty()) {

@@ -54,7 +54,7 @@ std::string base64(std::span<const std::byte> bytes) {
   return out;
 }
 
-// Embeds a picture as a separate document, so that ids of two pictures do not collide.
+// Embeds a picture as a separate document, so that the element ids of two SVG pictures do not collide.
 Result<std::string> picture_of(const std::filesystem::path& path) {
   const auto bytes = read_file(path);
   if (!bytes) return bytes.error();

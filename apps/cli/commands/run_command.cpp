@@ -29,7 +29,7 @@ namespace {
 
 constexpr double kReach = 4;  // maximum reach of steering, in standard deviations of unsteered walks
 
-// Parses a target: X,Y,Z@S.
+// Parses a target of steering, X,Y,Z@S: a position in metres, and the seconds until the walk is to be there.
 Result<SteerTarget> target_from(const std::string& text) {
   SteerTarget target;
   double seconds = 0;
@@ -262,18 +262,6 @@ Result<std::vector<std::size_t>> relit_frames(const Model& model, const Argument
   return frames;
 }
 
-// Checks that a model without inputs gets none.
-Result<void> check_drive(const Model& model, const Arguments& arguments) {
-  if (!model.inputs.empty()) return {};
-  for (const char* flag : {"input", "wind"}) {
-    if (!arguments.has(flag) || arguments.text(flag) == "0") continue;
-    return Error{
-        "--" + std::string(flag) + " drives a model's inputs, and " + arguments.positional() +
-        " has none: learn it from recordings with an input (a leaf's: from a windy recording and its calm twin)"};
-  }
-  return {};
-}
-
 // Warns of wind above the range of a chain's training, where its response is extrapolated and then clamped.
 void warn_of_wind(const Play& play, Terminal& terminal) {
   if (!std::holds_alternative<ChainModel>(play.model.dynamics)) return;
@@ -330,7 +318,6 @@ Result<void> go_round(const Arguments& arguments, Play& play) {
 Result<Play> prepare(const Arguments& arguments) {
   auto model = read_model(arguments.positional());
   if (!model) return model.error();
-  if (auto ok = check_drive(*model, arguments); !ok) return ok.error();
   auto input = InputTrack::from(*model, arguments);
   if (!input) return input.error();
   auto relit = relit_frames(*model, arguments);
@@ -368,6 +355,9 @@ Result<void> watch_film(const Arguments& arguments, Terminal& terminal, Play& pl
   };
   const auto recording = captured_from();
   if (!recording) return recording.error();
+  if (would_destroy(out, std::string(find_attribute(*recording, "source").value_or("")))) {
+    return Error{"--output " + out + " is a file that is read, and would be lost: give another name"};
+  }
   constexpr int kHeight = 720;
   auto film = filmed_flame(*recording, kHeight);
   if (!film) return film.error();

@@ -26,7 +26,9 @@ Result<CandleClipOptions> options_from(const Arguments& arguments) {
   if (wind == "calm") {
     options.wind.kind = WindKind::kDraughts;
   } else if (wind != "gusts") {
-    auto recording = read_table(wind, arguments);
+    Arguments of_table;  // without --rate, which is the film's
+    if (arguments.has("unpacked")) of_table.set("unpacked", arguments.text("unpacked"));
+    auto recording = read_table(wind, of_table, {.rate_hz = options.rig.rate_hz});
     if (!recording) return recording.error();
     options.wind_recording = std::move(*recording);
   }

@@ -179,6 +179,7 @@ Result<void> check_chain_flags(const Arguments& arguments) {
 // Reads the recording and its calm twin: the third argument or, if the recording is of a pair, REC.calm.csv beside it.
 Result<std::vector<Recording>> read_recordings(const Arguments& arguments, double rate_hz) {
   const auto& paths = arguments.positionals();
+  if (paths.size() > 3) return Error{paths[3] + ": is one file too many, expected a recording and its twin"};
   auto whole = read_table(paths[1], arguments, motion_table(arguments, rate_hz));
   if (!whole) return whole.error();
   auto recording = in_range(std::move(*whole), arguments, "range");
@@ -195,6 +196,7 @@ Result<std::vector<Recording>> read_recordings(const Arguments& arguments, doubl
   }
   if (twin.empty()) return all;
   auto other = read_table(twin, arguments, motion_table(arguments, rate_hz));
+  if (other) other = in_range(*std::move(other), arguments, "range");
   if (!other) return other.error();
   all.push_back(std::move(*other));
   return all;
@@ -227,6 +229,8 @@ Result<void> run_validate(const Arguments& arguments, Terminal& terminal) {
   if (!steps) return steps.error();
   if (std::holds_alternative<ChainModel>(model->dynamics)) return validate_chain(*model, arguments, terminal);
   if (!std::holds_alternative<OutlineView>(model->view)) return validate_plain(*model, *steps, arguments, terminal);
+  auto filmed = refuse(arguments, {"film"}, "is for segment chains of poses; this model is of an outline");
+  if (!filmed) return filmed;
   if (positionals.size() > 2) {
     return Error{positionals[2] + ": is one file too many, only plain ARX models are judged on several"};
   }

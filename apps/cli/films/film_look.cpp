@@ -18,8 +18,8 @@ constexpr float kOutside = -0.30F, kInside = 0.18F;
 // Depths between which the glow fades: none beyond kGlowEnds, full from kGlowWhole inwards.
 constexpr float kGlowEnds = -0.26F, kGlowWhole = -0.10F;
 
-// Mean flame heights above the base. All pixels count as still below kUnder, none by height alone above kFootBegins;
-// pixels of low variance, such as the wick, do up to kFootBegins, and less and less up to kFootEnds.
+// Heights above the base in mean flame heights, for stillness(): 1 below kUnder, falling to 0 at kFootBegins; of pixels
+// of low variance, such as the wick, 1 up to kFootBegins, falling to 0 at kFootEnds.
 constexpr float kUnder = -0.04F, kFootBegins = 0.05F, kFootEnds = 0.22F;
 
 // Standard deviations over time, in 8-bit codes: a pixel below kStill is still, above kMoves it moves.

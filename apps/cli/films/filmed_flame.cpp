@@ -21,17 +21,17 @@ Place base_of(const Outline& outline) {
   return {(outline.front()[0] + outline.back()[0]) / 2, (outline.front()[1] + outline.back()[1]) / 2};
 }
 
-// Adds the rows from whose frames the look is learned: about 48 spread over the first 1800. If the camera moves
-// (`stands` is false), the surroundings change: then 24 rows around the middle row with an outline.
+// Adds the rows from whose frames the look is learned: about 48 spread over 1800, which begin at most 450 before the
+// first outline. If the camera moves (`stands` is false), the surroundings change: then 24 around the middle outline.
 std::vector<std::size_t> lesson_of(const OutlineRows& captured, std::vector<std::size_t> rows, bool stands) {
   constexpr std::size_t kLessons = 48, kLast = 1800, kPassing = 24;
   std::vector<std::size_t> seen;
   for (std::size_t row = 0; row < captured.size(); ++row) {
     if (!captured[row].empty()) seen.push_back(row);
   }
-  const std::size_t middle = seen.empty() ? 0 : seen[seen.size() / 2];
-  const std::size_t first = stands ? 0 : middle - std::min(middle, kPassing / 2);
-  const std::size_t last = std::min(captured.size(), stands ? kLast : first + kPassing);
+  const std::size_t from = seen.empty() ? 0 : stands ? seen.front() : seen[seen.size() / 2];
+  const std::size_t first = from - std::min(from, stands ? kLast / 4 : kPassing / 2);
+  const std::size_t last = std::min(captured.size(), first + (stands ? kLast : kPassing));
   for (std::size_t row = first; row < last; row += 1 + (last - first) / kLessons) rows.push_back(row);
   std::ranges::sort(rows);
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());

@@ -54,8 +54,9 @@ class FilmedFlame {
   FilmedFlame(const OutlineRows& captured, double pixels_per_unit, std::array<int, 2> clip_size, const ViewSpace& space,
               int height);
 
-  /// Learns the look from frames spread over the first 1800 rows (from 24 rows if the base moves), and returns the
-  /// views of the rows shown. A row whose frame was lost takes the next frame. Errors: the clip cannot be read.
+  /// Learns the look from frames spread over 1800 rows from about the first outline on (from 24 if the base moves).
+  /// Returns the views of the rows `shown` that have an outline; a lost frame is replaced by the next one. Errors: the
+  /// clip cannot be read.
   Result<std::map<std::size_t, Image>> watch(const ClipFrames& clip, const OutlineRows& captured,
                                              const std::vector<std::size_t>& shown = {});
 

@@ -34,8 +34,8 @@ struct LeafPanel {
   std::string caption{};  ///< empty: none
 };
 
-/// Writes a film with several recordings side by side, in equal shares of the width, each with 3/5 of the leaves.
-/// Errors: as write_leaf_film(); rates that differ.
+/// Writes a film of one recording, or of several side by side, in equal shares of the width and each with at most 3/5
+/// of max_leaves. Errors: as write_leaf_film(); rates that differ.
 ///
 /// Precondition: !panels.empty().
 Result<void> write_leaf_films(const std::filesystem::path& path, std::span<const LeafPanel> panels,

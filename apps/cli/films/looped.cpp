@@ -40,9 +40,8 @@ Flag loop_flag() {
 }
 
 Result<Take> take_from(const Model& model, const Arguments& arguments, Terminal& terminal, bool round) {
-  if (model.inputs.empty() && arguments.number("wind") != 0) {
-    return Error{"--wind drives a model's inputs, and " + arguments.positional() + " has none"};
-  }
+  const auto track = InputTrack::from(model, arguments);
+  if (!track) return track.error();
   TakeOptions options{.loop = arguments.has("loop"),
                       .instances = arguments.integer("instances"),
                       .seed = static_cast<std::uint64_t>(arguments.integer("seed")),
@@ -50,14 +49,10 @@ Result<Take> take_from(const Model& model, const Arguments& arguments, Terminal&
                       .round = round};
   options.seconds = arguments.number(options.loop ? "loop" : "seconds");
   options.inputs.assign(model.inputs.size(), arguments.number("wind"));
-  if (arguments.has("input")) {
-    const auto track = InputTrack::from(model, arguments);
-    if (!track) return track.error();
-    for (std::size_t frame = 0; frame < track->rows(); ++frame) {
-      for (const float value : track->at(frame)) options.schedule.push_back(value);
-    }
-    options.seconds = static_cast<double>(track->rows()) / model.rate_hz;
+  for (std::size_t frame = 0; frame < track->rows(); ++frame) {
+    for (const float value : track->at(frame)) options.schedule.push_back(value);
   }
+  if (arguments.has("input")) options.seconds = static_cast<double>(track->rows()) / model.rate_hz;
   auto taken = take(model, options);
   if (!taken) return Error{arguments.positional() + ": " + taken.error().message};
   terminal.add("frames", taken->frames);

@@ -15,7 +15,7 @@ namespace wisp::cli {
 Flag loop_flag();
 
 /// Plays the take requested by --loop, --seconds, --instances, --seed, --noise and --wind or --input; adds its size to
-/// the result. `round`: as TakeOptions::round. Errors: those of take() and InputTrack::from(); --wind without an input.
+/// the result. `round`: as TakeOptions::round. Errors: those of take() and InputTrack::from().
 Result<Take> take_from(const Model& model, const Arguments& arguments, Terminal& terminal, bool round = false);
 
 /// `run --loop`: writes the loop as numbers (.csv) or, for outlines, as a film (.mp4) whose last frame joins its first.

@@ -145,7 +145,8 @@ Result<void> draw_validation(const ValidatedOutline& found, const Model& model, 
   if (folder.empty()) return {};
   if (auto ok = write_validation_figures(folder, model, found.report); !ok) return ok;
   if (subject.captured) {
-    if (auto ok = write_clip_figures(folder, subject.clip.path, *subject.captured); !ok) return ok;
+    const std::size_t skipped = first_frame_of(subject.recording);
+    if (auto ok = write_clip_figures(folder, subject.clip.path, skipped, *subject.captured); !ok) return ok;
   }
   terminal.say("wrote figures to " + folder);
   return {};

@@ -20,8 +20,8 @@ Result<ClipCapture> capture_options(const Arguments& arguments);
 /// Returns the reason why a flag of clips is refused where a table is read.
 std::string of_clips(const std::string& table);
 
-/// Reads tables and captures other files, with the curve shape of the first recording. A bad file is an error or, with
-/// --skip-bad, skipped and listed. Errors: no file remains; a flag of clips if all files are tables.
+/// Reads tables and captures clips, each with the knots and underside of the first outline read. A bad file is an error
+/// or, with --skip-bad, skipped and listed. Errors: no file remains; a flag of clips if all files are tables.
 Result<std::vector<Recording>> outline_recordings(const std::vector<std::string>& paths, const Arguments& arguments,
                                                   Terminal& terminal);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Flags for recordings of motion with other column names.
+// Flags that name the columns of position and orientation in a recording of motion.
 
 #include <string>
 #include <vector>

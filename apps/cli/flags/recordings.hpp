@@ -1,5 +1,5 @@
 #pragma once
-// Reads recordings named by commands, by their kind of file.
+// Reads the recordings named on the command line, each by its kind of file.
 
 #include <filesystem>
 #include <functional>

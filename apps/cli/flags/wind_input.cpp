@@ -58,6 +58,15 @@ Result<std::vector<std::string>> input_names(const Model& model, const Arguments
                std::to_string(model.inputs.size()) + " inputs: name one for each, in the model's order"};
 }
 
+// Checks that a model without inputs gets none.
+Result<void> check_drive(const Model& model, const Arguments& arguments) {
+  const bool table = arguments.has("input");
+  if (!model.inputs.empty() || (!table && arguments.number("wind") == 0)) return {};
+  return Error{
+      std::string(table ? "--input" : "--wind") + " drives a model's inputs, and " + arguments.positional() +
+      " has none: learn it from recordings with an input (a leaf's: from a windy recording and its calm twin)"};
+}
+
 constexpr double kMaxFrames = 1e9;
 
 }  // namespace
@@ -80,6 +89,7 @@ Result<InputTrack> InputTrack::heard(const Model& model, const std::string& path
 }
 
 Result<InputTrack> InputTrack::from(const Model& model, const Arguments& arguments) {
+  if (auto ok = check_drive(model, arguments); !ok) return ok.error();
   InputTrack track;
   if (!arguments.has("input")) {
     track.tracks_.assign(model.inputs.size(), {static_cast<float>(arguments.number("wind"))});

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kBreak = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kMaxOutputs = 4;
+constexpr std::size_t kMaxOutputs = 4, kMaxInputs = 16;
 constexpr std::size_t kMaxRows = 1000;       // maximum rows of a plot: more rows than pixels are illegible
 constexpr std::size_t kPredictedRows = 200;  // rows of a plot of predictions: few enough to show the interval's width
 constexpr double kFar = 1.5;  // zeros beyond this |z| are only counted in the title: drawn, they would shrink the plot
@@ -38,11 +38,13 @@ class Figures {
   }
 
   std::size_t outputs() const { return std::min(model_.outputs.size(), kMaxOutputs); }
-  std::size_t inputs() const { return model_.inputs.size(); }
+  std::size_t inputs() const { return std::min(model_.inputs.size(), kMaxInputs); }
 
-  // Returns the suffix of a figure's name: the output's name, or none if the model has one output.
+  // Returns the suffix of a figure's file name: the output's name without '/', or none if the model has one output.
   std::string of_output(std::size_t output) const {
-    return model_.outputs.size() == 1 ? "" : "-" + model_.outputs[output].name;
+    std::string suffix = model_.outputs.size() == 1 ? "" : "-" + name(output);
+    std::ranges::replace(suffix, '/', '-');
+    return suffix;
   }
   const std::string& name(std::size_t output) const { return model_.outputs[output].name; }
 
@@ -280,10 +282,13 @@ Result<void> write_arx_figures(const fs::path& folder, const Model& model, const
     if (sheet.plots.empty()) continue;
     if (auto ok = write_figure(folder, name, sheet); !ok) return ok;
   }
-  if (model.outputs.size() > kMaxOutputs) {
-    terminal.warn("figures are drawn of the first " + std::to_string(kMaxOutputs) + " of " +
-                  std::to_string(model.outputs.size()) + " outputs; learn the others by --outputs to see theirs");
-  }
+  const auto warn = [&](std::size_t drawn, std::size_t all, const std::string& what) {
+    if (drawn == all) return;
+    terminal.warn("figures are drawn of the first " + std::to_string(drawn) + " of " + std::to_string(all) + " " +
+                  what + "; learn the others by --" + what + " to see theirs");
+  };
+  warn(figures.outputs(), model.outputs.size(), "outputs");
+  warn(figures.inputs(), model.inputs.size(), "inputs");
   return {};
 }
 

@@ -57,7 +57,7 @@ Result<Recording> table_for(const Model& model, const std::string& path, const A
 Result<void> validate_plain(const Model& model, const std::vector<int>& steps, const Arguments& arguments,
                             Terminal& terminal) {
   const bool switched = std::holds_alternative<SwitchedArxModel>(model.dynamics);
-  for (const char* flag : {"overlay", "film-strip", "figures"}) {
+  for (const char* flag : {"overlay", "film-strip", "film", "figures"}) {
     if (!arguments.has(flag) || (!switched && std::string_view(flag) == "figures")) continue;
     return Error{arguments.positional() + ": is " + (switched ? "a switched model" : "not a model of an outline") +
                  ", for which --" + flag + " draws nothing"};

@@ -16,13 +16,13 @@ namespace wisp::cli {
 
 /// Writes plots of the report's series into a folder (created if missing), each as PNG and SVG: `poles-zeros`, per
 /// output `step` and `frequency`, `residuals`, and for a validation `simulation`, `prediction` and `prediction-error`.
-/// Of more than four outputs only the first four are drawn, with a warning.
+/// Of more than 4 outputs or 16 inputs only the first 4 or 16 are drawn, with a warning.
 /// Errors: a file cannot be written.
 Result<void> write_arx_figures(const std::filesystem::path& folder, const Model& model, const Report& report,
                                Terminal& terminal);
 
-/// Validates a model on a table: fit, J and errors per number of steps, coverage of the model's own intervals, and
-/// residual tests; with --figures also their plots.
+/// Validates a model on one or more tables: fit, mean absolute (J) and RMS errors per number of steps, coverage of the
+/// model's own intervals, and residual tests; with --figures also their plots.
 /// Errors: the table cannot be read or lacks the model's channels; a flag that draws nothing for this kind of model.
 Result<void> validate_plain(const Model& model, const std::vector<int>& steps, const Arguments& arguments,
                             Terminal& terminal);

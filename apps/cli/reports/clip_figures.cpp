@@ -1,6 +1,7 @@
 #include "reports/clip_figures.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include "wisp/capture/capture.hpp"
 #include "wisp/capture/media/sound.hpp"
@@ -65,7 +66,8 @@ class Envelope {
   std::size_t count_ = 0;
 };
 
-Result<void> write_sound_figure(const fs::path& folder, const fs::path& clip, const Report& captured) {
+Result<void> write_sound_figure(const fs::path& folder, const fs::path& clip, std::size_t skipped,
+                                const Report& captured) {
   Envelope envelope;
   const auto heard = stream_sound(clip, [&](const SoundInfo& info, std::span<const float> samples) {
     envelope.feed(info, samples);
@@ -74,7 +76,7 @@ Result<void> write_sound_figure(const fs::path& folder, const fs::path& clip, co
   if (!heard) return heard.error();
   if (!*heard || (*heard)->silent()) return {};
   const double rate_hz = figure(captured, "rate_hz");
-  const auto wind = hear_wind(clip, rate_hz, static_cast<std::size_t>(figure(captured, "frames")));
+  const auto wind = hear_wind(clip, rate_hz, skipped + static_cast<std::size_t>(figure(captured, "frames")));
   if (!wind) return wind.error();
   Plot raw{.title = "Sound", .x = {.label = "time, s"}, .y = {.label = "amplitude"}};
   raw.series.push_back(std::move(envelope.series));
@@ -82,7 +84,7 @@ Result<void> write_sound_figure(const fs::path& folder, const fs::path& clip, co
              .x = {.label = "time, s"},
              .y = {.label = "amplitude", .lowest = 0.0}};
   PlotSeries rms;
-  for (const WindFrame& frame : wind->frames) {
+  for (const WindFrame& frame : std::span(wind->frames).subspan(std::min(skipped, wind->frames.size()))) {
     rms.x.push_back(static_cast<double>(frame.index) / rate_hz);
     rms.y.push_back(frame.rms);
   }
@@ -103,10 +105,11 @@ Result<void> write_figure(const fs::path& folder, const std::string& name, const
   return {};
 }
 
-Result<void> write_clip_figures(const fs::path& folder, const fs::path& clip, const Report& captured) {
+Result<void> write_clip_figures(const fs::path& folder, const fs::path& clip, std::size_t skipped,
+                                const Report& captured) {
   if (auto ok = write_figure(folder, "brightness", histogram_sheet(captured)); !ok) return ok;
   if (fs::is_directory(clip)) return {};
-  return write_sound_figure(folder, clip, captured);
+  return write_sound_figure(folder, clip, skipped, captured);
 }
 
 }  // namespace wisp::cli
