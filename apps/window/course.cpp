@@ -61,7 +61,6 @@ Key key_named(std::string_view name) {
 
 Result<std::vector<TimedEvent>> read_script(const std::filesystem::path& path) {
   std::ifstream file(path);
-  if (!file) return Error{path.string() + ": cannot be read; expected a script of events"};
   std::vector<TimedEvent> events;
   std::string line;
   for (int number = 1; std::getline(file, line); ++number) {
@@ -78,6 +77,7 @@ Result<std::vector<TimedEvent>> read_script(const std::filesystem::path& path) {
     }
     for (const auto& one : what) events.push_back({seconds, one});
   }
+  if (!file.eof()) return Error{path.string() + ": cannot be read; expected a script of events"};  // a folder opens
   std::stable_sort(events.begin(), events.end(), [](auto& a, auto& b) { return a.seconds < b.seconds; });
   return events;
 }
@@ -144,7 +144,7 @@ Result<PlayReport> play_without_display(const PlayOptions& options) {
     report.add_frame(thread_milliseconds() - before);
     if (!options.pictures) continue;
     std::vector<std::string> names = course->wanted();
-    if (!course->takes_pictures()) names = {"frame-" + std::to_string(100'000 + frame).substr(1)};
+    if (!course->takes_pictures()) names = {picture_name(frame)};
     for (const std::string& name : names) {
       if (auto ok = write_png(*options.pictures / (name + ".png"), image); !ok) return ok.error();
       report.pictures.push_back({name, frame, player->state()});

@@ -25,7 +25,7 @@ struct PlayOptions {
   std::optional<std::string> sound{};               ///< a sound file in place of the microphone
   std::optional<std::filesystem::path> script{};    ///< events with times
   std::optional<std::filesystem::path> pictures{};  ///< folder for pictures
-  int frames = 0;          ///< without a display: number of frames of 1/60 s; in a window 0: until it is closed
+  int frames = 0;          ///< number of frames, of 1/60 s without a display; 0, for a window only: until it is closed
   bool microphone = true;  ///< open it at the window's start
   const volatile int* interrupted = nullptr;  ///< once its value is not 0, the play ends after the current frame
 };
@@ -97,6 +97,11 @@ class Course {
   bool scripted_ = false;
   std::optional<SoundFile> sound_;
 };
+
+/// Returns the name of a frame's picture without its ending: frame-00001, or more digits from frame 100,000 on.
+inline std::string picture_name(int frame) {
+  return "frame-" + (frame < 100'000 ? std::to_string(100'000 + frame).substr(1) : std::to_string(frame));
+}
 
 /// Returns this thread's processor time in milliseconds.
 double thread_milliseconds();

@@ -80,6 +80,13 @@ py::array_t<double> coefficients(const Model& model, bool of_inputs) {
   return array[py::int_(0)].cast<py::array_t<double>>();
 }
 
+// Returns one value an output, and for a switched model a list of them for each mode.
+py::object noise_sd(const Model& model) {
+  std::vector<std::vector<double>> modes;
+  for (const ArxModel& mode : arx_of(model)) modes.push_back(mode.noise.sd);
+  return std::holds_alternative<SwitchedArxModel>(model.dynamics) ? py::cast(modes) : py::cast(modes[0]);
+}
+
 py::dict training_of(const Model& model) {
   py::dict recipe, figures, all;
   for (const auto& note : model.training.recipe) recipe[py::str(note.name)] = note.value;
@@ -107,15 +114,23 @@ std::string shown(const Model& model) {
          (model.training.usable.verdict ? "usable" : "not usable") + ">";
 }
 
-// Writes a file for another tool, by its extension: .glb, .json (Lottie) or .c with its .h.
+// Writes a file for another tool, by its extension: .glb, .json (Lottie) or .c with its .h. As in the program, .c and
+// .json of a plant, an ARX model with inputs and plain outputs, are the linear system itself.
 void export_to(const Model& model, const std::filesystem::path& path, double seconds, bool loop, int instances,
                std::uint64_t seed, bool noise, const std::vector<double>& inputs) {
-  const std::string kind = path.extension().string();
+  const std::string kind = path.extension().string(), name = path.stem().string();
+  const auto write_source = [&](const std::string& text, const std::string& declared) {
+    if (!declared.empty()) unwrap(write_file(std::filesystem::path(path).replace_extension(".h"), declared));
+    unwrap(write_file(path, text));
+  };
+  if (std::holds_alternative<ArxModel>(model.dynamics) && std::holds_alternative<PlainView>(model.view) &&
+      !model.inputs.empty() && (kind == ".c" || kind == ".json")) {
+    const auto plant = unwrapped(plant_text(model, kind == ".c" ? PlantLanguage::kC : PlantLanguage::kJson, name));
+    return write_source(plant.text, plant.header);
+  }
   if (kind == ".c") {
-    const auto lamp = unwrapped(firmware_source(model, path.stem().string()));
-    std::filesystem::path header = path;
-    unwrap(write_file(header.replace_extension(".h"), lamp.header));
-    return unwrap(write_file(path, lamp.source));
+    const auto lamp = unwrapped(firmware_source(model, name));
+    return write_source(lamp.source, lamp.header);
   }
   if (kind != ".glb" && kind != ".json") throw Failure(path.string() + ": expected a name in .glb, .json or .c");
   const auto taken = unwrapped(take(model, {.seconds = seconds,
@@ -156,16 +171,15 @@ void bind_models(py::module_& module) {
       .def_property_readonly(
           "b", [](const Model& self) { return coefficients(self, true); },
           "B[lag, i, k] from lag 0, of inputs as the dynamics see them.")
-      .def_property_readonly(
-          "noise_sd", [](const Model& self) { return arx_of(self)[0].noise.sd; },
-          "Standard deviation of each output's own noise.")
+      .def_property_readonly("noise_sd", &noise_sd,
+                             "Standard deviation of each output's own noise; of each mode of a switched model.")
       .def(
           "in_the_round", [](const Model& self) { return unwrapped(in_the_round(self)); },
           "The same flame in the round, by rotational symmetry: its wind is x and z.")
       .def("export", &export_to, py::arg("path"), py::kw_only(), py::arg("seconds") = 4.0, py::arg("loop") = false,
            py::arg("instances") = 1, py::arg("seed") = 1, py::arg("noise") = true,
            py::arg("inputs") = std::vector<double>{}, py::call_guard<py::gil_scoped_release>(),
-           "Writes .glb, .json (Lottie) or .c, as `wisp export` does.")
+           "Writes .glb, .json (Lottie, or a linear system) or .c, as `wisp export` does.")
       .def(
           "__eq__",
           [](const Model& self, const Model& other) {

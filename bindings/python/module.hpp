@@ -46,7 +46,7 @@ inline void unwrap(const Result<void>& result) {
 }
 
 /// Runs long work without the interpreter's lock. The callback receives the stages and may stop the work by returning
-/// False; Ctrl-C and the callback's own exceptions also stop it and are raised.
+/// False, or a false value but None; Ctrl-C and the callback's own exceptions also stop it and are raised.
 class Watch {
  public:
   explicit Watch(py::object callback) : callback_(std::move(callback)) {}
@@ -70,7 +70,9 @@ class Watch {
     if (raised_ || callback_.is_none()) return !raised_;
     try {
       const py::object answer = callback_(py::str(stage.data(), stage.size()), share);
-      return answer.is_none() || answer.cast<bool>();
+      const int truth = answer.is_none() ? 1 : PyObject_IsTrue(answer.ptr());
+      if (truth < 0) throw py::error_already_set();
+      return truth > 0;
     } catch (py::error_already_set& error) {
       error.restore();
       raised_ = true;

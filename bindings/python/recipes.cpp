@@ -1,4 +1,4 @@
-// Python classes of recipes, and functions learn and validate.
+// Python classes of recipes, and functions prepare, advise, learn, validate and in_model_units.
 
 #include <algorithm>
 #include <cctype>
@@ -12,7 +12,7 @@
 namespace wisp::python {
 namespace {
 
-// Binds an enumeration with the words of flags, in capitals.
+// Binds an enumeration; its values are named by the command line's words, in capitals.
 template <class Enumeration>
 void bind_words(py::module_& module, const char* name) {
   py::enum_<Enumeration> words(module, name);
@@ -23,7 +23,7 @@ void bind_words(py::module_& module, const char* name) {
   }
 }
 
-// Binds a field as a property, by its type: orders are plain numbers, events and realisations the words of flags.
+// Binds a field as a property: orders as plain numbers, events and realisations as the command line's words.
 template <class Class, class Recipe, class Value>
 void bind_field(Class& to, const RecipeField<Recipe, Value>& field, const char* help) {
   const auto member = field.member;

@@ -29,10 +29,10 @@ Recording make(double rate_hz, const py::object& outputs, const py::object& inpu
   add_columns(recording, inputs, Role::kInput);
   add_columns(recording, outputs, Role::kOutput);
   recording.episode_ids = episodes;
-  unwrap(check(recording));
   if (!episodes.empty() && episodes.size() != recording.rows())
     throw Failure("found " + std::to_string(episodes.size()) + " episode ids, expected one for each of the " +
                   std::to_string(recording.rows()) + " rows");
+  unwrap(check(recording));
   return recording;
 }
 

@@ -11,8 +11,16 @@ namespace {
 
 using Samples = py::array_t<float, py::array::c_style | py::array::forcecast>;
 
+/// An estimator and the number of its stream's channels.
+struct Stream : WindLevel {
+  int channels;
+};
+
 /// Feeds all samples; returns a dictionary of arrays with one value per completed frame.
-py::dict feed(WindLevel& level, const Samples& samples) {
+py::dict feed(Stream& level, const Samples& samples) {
+  if (samples.size() % level.channels != 0)
+    throw py::value_error("found " + std::to_string(samples.size()) + " samples, expected whole rows of " +
+                          std::to_string(level.channels) + " channels");
   std::span<const float> left(samples.data(), static_cast<std::size_t>(samples.size()));
   std::vector<WindFrame> frames;
   {
@@ -47,9 +55,10 @@ void bind_sound(py::module_& module) {
   py::enum_<WindAsk>(module, "WindAsk")
       .value("BREATHE_GENTLY", WindAsk::kBreatheGently)
       .value("BLOW_HARD", WindAsk::kBlowHard);
-  py::class_<WindLevel>(module, "WindLevel", "The wind that a microphone hears, as its sound comes.")
+  py::class_<Stream>(module, "WindLevel", "The wind that a microphone hears, as its sound comes.")
       .def(py::init([](double rate_hz, int channels, double frame_rate_hz) {
-             return unwrapped(WindLevel::create({rate_hz, channels}, {.frame_rate_hz = frame_rate_hz}));
+             auto level = unwrapped(WindLevel::create({rate_hz, channels}, {.frame_rate_hz = frame_rate_hz}));
+             return Stream{std::move(level), channels};
            }),
            py::arg("rate_hz") = 44100.0, py::arg("channels") = 1, py::arg("frame_rate_hz") = 60.0)
       .def("feed", &feed, py::arg("samples"),

@@ -5,7 +5,7 @@
 //     var model = Model.Read("flame.wisp");
 //     var bank = new Bank(model, capacity: 100);
 //     ulong flame = bank.Spawn();
-//     bank.SetCommonInputs(wind);                       // every frame
+//     bank.SetCommonInputs(inputs);                     // every frame; a float[], as single numbers allocate one
 //     bank.Advance(Time.deltaTime);
 //     bank.Polyline(flame, points);                     // x, y in turn
 using System;
@@ -405,6 +405,7 @@ namespace Wisp
             options.PolylinePoints = (uint)polylinePoints;
             options.Longest = (uint)Math.Max(1, Math.Round(longest * 1000));
             Native.Check(Native.wisp_bank_create(model.Handle, ref options, out handle));
+            GC.KeepAlive(model);  // its finalizer would free what the call reads
         }
 
         public int Slots { get { return (int)Facts().Slots; } }

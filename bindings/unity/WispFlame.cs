@@ -60,8 +60,9 @@ public sealed class WispFlame : MonoBehaviour
 
     private void OnDestroy()
     {
-        bank.Dispose();
-        model.Dispose();
+        // Both are missing where Start failed.
+        if (bank != null) bank.Dispose();
+        if (model != null) model.Dispose();
     }
 }
 #endif

@@ -94,7 +94,7 @@ enum {
 /* Meaning of the outputs. */
 enum {
   WISP_VIEW_PLAIN = 0,   /* no further meaning */
-  WISP_VIEW_OUTLINE = 1, /* control points x, y of a closed outline: x right, y up, mean height 1 */
+  WISP_VIEW_OUTLINE = 1, /* control points x, y of an outline: x right, y up, mean height 1 */
   WISP_VIEW_POSE = 2,    /* position x, y, z in metres, z up; unit quaternion w, x, y, z, body to world */
   WISP_VIEW_POSITION = 3 /* position x, y, z in metres, z up */
 };
@@ -116,8 +116,8 @@ typedef struct wisp_model_facts {
   double blow_out_seconds; /* duration until the flame is out at that wind; stronger wind takes less */
   uint32_t dynamics;       /* one of WISP_DYNAMICS_* */
   uint32_t view;           /* WISP_VIEW_PLAIN, WISP_VIEW_OUTLINE, WISP_VIEW_POSE or WISP_VIEW_POSITION */
-  double half_width;       /* metres along the first axis of a body with pose, a leaf's midrib; 0: unknown */
-  double half_length;      /* metres along its second axis; 0: unknown */
+  double half_width;       /* metres from a body's middle to its edge on its first axis, a leaf's midrib; 0: unknown */
+  double half_length;      /* the same on its second axis; 0: unknown, or WISP_VIEW_POSITION */
   double blow_out_haste;   /* the duration at twice the level is blow_out_seconds / (1 + blow_out_haste) */
   double blow_out_recovery_seconds; /* time below the level until full recovery */
   uint32_t blow_out_input;          /* index of the input that blows instances out */
@@ -381,7 +381,7 @@ typedef struct wisp_chain_place {
   float velocity[3]; /* mean over the last step, metres per second */
   float spin[3];     /* radians per second, world axes */
   uint32_t lies;     /* 1: at rest on the ground */
-  uint32_t landed;   /* 1: touched the ground in the last call of step or advance, at most 0.35 s before its end */
+  uint32_t landed;   /* 1: touched the ground in the last call of step or advance, and does not lie yet */
 } wisp_chain_place;
 
 WISP_API wisp_status wisp_bank_get_chain_place(const wisp_bank* bank, wisp_instance instance, wisp_chain_place* place);
@@ -434,7 +434,7 @@ WISP_API wisp_status wisp_bank_reset_instance(wisp_bank* bank, wisp_instance ins
 WISP_API wisp_status wisp_bank_reset(wisp_bank* bank);
 
 /* Save the whole state as bytes, and restore it: the bank continues with the same bits. The same model and capacity are
- * needed. WISP_BAD_DATA if the bytes are damaged or of another model, capacity or version; only this allocates. */
+ * needed. WISP_BAD_DATA if the bytes are damaged or of another model, capacity or version; only failure allocates. */
 WISP_API wisp_status wisp_bank_save_bytes(const wisp_bank* bank, size_t* bytes);
 WISP_API wisp_status wisp_bank_save(const wisp_bank* bank, void* bytes, size_t size);
 WISP_API wisp_status wisp_bank_restore(wisp_bank* bank, const void* bytes, size_t size);
@@ -493,7 +493,7 @@ WISP_API wisp_status wisp_wind_feed_int16(wisp_wind* wind, const int16_t* sample
 /* Reads the latest frame; all zero before the first. */
 WISP_API wisp_status wisp_wind_latest(const wisp_wind* wind, wisp_wind_frame* frame);
 
-/* Requests of a guided calibration. The room needs none. */
+/* Requests of a guided calibration. The background is estimated without a request. */
 #define WISP_WIND_BREATHE_GENTLY 0u /* wind that leans a flame without extinguishing it */
 #define WISP_WIND_BLOW_HARD 1u      /* wind that extinguishes a flame */
 

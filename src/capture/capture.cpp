@@ -125,7 +125,7 @@ Cure cure_of(const std::filesystem::path& path, const ClipCapture& options, cons
   const auto usable = [&](const ClipCapture& other, int turn = 0) {
     FilmFacts ignored;
     const auto captured = look_at(path, other, turn, ignored, progress);
-    // A blurred glow may be usable in any rotation, but its outline rarely is right with a probability above 0.8.
+    // A blurred glow may be usable in any rotation, but the probability that its outline is right rarely exceeds 0.8.
     return captured && captured->report.verdict->usable &&
            (turn == 0 || std::get<double>(captured->report.find("likely.right")->value) > 0.8);
   };
@@ -240,12 +240,11 @@ Result<Captured> capture_views(std::span<const std::filesystem::path> films, std
     if (!film) return film.error();
     if (!options.curve) options.curve = curve_of(film->recording);
     FilmedView view{azimuths[k], std::move(film->recording), {}, 0};
-    const auto reader = VideoReader::open(films[k], {.rate_hz = options.rate_hz, .frames = {}});
-    if (reader && !reader->info().images) {
-      const auto rows = options.rate_hz > 0 ? std::optional(view.recording.rows()) : std::nullopt;
-      const auto heard = hear_wind(films[k], view.recording.rate_hz, rows);
+    auto reader = VideoReader::open(films[k], {.rate_hz = options.rate_hz, .frames = {}});
+    if (reader && !reader->info().images && reader->next()) {  // the first frame sets info().begin
+      const auto heard = hear_wind(films[k], view.recording.rate_hz, view.recording.rows());
       if (!heard) return heard.error();
-      view.heard_from = -reader->info().begin;
+      view.heard_from = -reader->info().begin / reader->info().speed;
       for (const WindFrame& frame : heard->frames) view.loudness.push_back(static_cast<double>(frame.rms));
     }
     views.push_back(std::move(view));
@@ -282,11 +281,12 @@ Result<Recording> capture_brightness(const std::filesystem::path& path, const Cl
     // Rows of lost frames are missing (NaN).
     channel.samples.resize(static_cast<std::size_t>((*frame)->index - first), std::nan(""));
     channel.samples.push_back(light_of(picture, region, pixels));
-    const auto frames = static_cast<double>(std::max<std::int64_t>(1, reader->info().frames));
-    const double done = static_cast<double>(channel.samples.size()) / frames;
+    const std::int64_t frames = options.frames ? options.frames->last - first : reader->info().frames;
+    const double done = static_cast<double>(channel.samples.size()) / std::max(1.0, static_cast<double>(frames));
     if (!go_on(progress, "measuring", std::min(1.0, done))) return Error{std::string(kStopped)};
   }
   if (auto ok = check_frames(path, options.frames, *reader, channel.samples.size()); !ok) return ok.error();
+  if (channel.samples.empty()) return Error{path.string() + ": has no frame that can be read; give a clip that plays"};
   const double usual = mean(present(channel.samples));
   if (!(usual > 0)) return Error{path.string() + ": is black throughout, there is no light to measure"};
   for (double& value : channel.samples) value /= usual;

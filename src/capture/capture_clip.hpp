@@ -27,7 +27,8 @@ Result<void> read_into(VideoReader& reader, Capture& capture, const std::optiona
     capture.lost(static_cast<int>(now.index - expected_index));
     expected_index = now.index + 1;
     if (auto fed = capture.feed(now.picture); !fed) return fed.error();
-    const std::int64_t expected = reader.info().frames;
+    const bool part = frames && !reader.info().images;  // a folder states the frames of its range
+    const std::int64_t expected = part ? frames->last - frames->first + 1 : reader.info().frames;
     const double share = expected > 0 ? std::min(1.0, static_cast<double>(++done) / static_cast<double>(expected)) : -1;
     if (!go_on(progress, "capturing", share)) return Error{std::string(kStopped)};
   }

@@ -64,7 +64,7 @@ inline float dither_at(int x, int y) {
   return static_cast<float>(spread >> 8) / 16777216.0F;
 }
 
-/// Returns an offset: a code plus the offset, truncated, equals dithered(), so that both ways to a pixel agree.
+/// Returns a pixel's offset for dithering in bulk: a fractional code plus the offset, truncated, equals dithered().
 inline float rounding_at(int x, int y) { return 0.004F + 0.992F * dither_at(x, y); }
 
 /// Returns the light that add_light() renders as `colour` on black.

@@ -24,7 +24,7 @@ namespace {
 constexpr int kWeightBits = 28, kSumBits = 25, kOneBits = 12;
 constexpr std::size_t kMaxModes = 16, kMaxLags = 32;
 constexpr double kMaxWeight = 8, kMaxSum = 24;
-// Quantiles of the normal distribution, but for the first and the last: with these, shocks have a kurtosis of 3.
+// Quantiles of the normal distribution; the first and the last are set so that shocks have its kurtosis, 3.
 constexpr std::array<double, kShockQuantiles> kNormal{-3.2,    -1.5341, -1.1503, -0.8871, -0.6745, -0.4888,
                                                       -0.3186, -0.1573, 0,       0.1573,  0.3186,  0.4888,
                                                       0.6745,  0.8871,  1.1503,  1.5341,  3.2};
@@ -185,6 +185,9 @@ Result<FirmwareSource> firmware_source(const Model& model, std::string_view name
   const auto lamp = lamp_of(model);
   if (!lamp) return lamp.error();
   if (auto ok = check(*lamp); !ok) return ok.error();
+  if (std::abs(model.rate_hz - std::round(model.rate_hz)) > 0.005 * model.rate_hz)  // the header has it as an integer
+    return Error{"the model makes " + std::to_string(model.rate_hz) +
+                 " steps a second, expected a whole number from 1"};
   const Output& output = model.outputs[0];
   const double margin = kRangeMargin * (output.highest - output.lowest), one = 1 << kOneBits;
   const double below = output.lowest - margin, highest = output.highest + margin;

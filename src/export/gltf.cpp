@@ -70,7 +70,7 @@ class Buffer {
   }
   bool has_picture() const { return accessors_.back().count == 0; }
 
-  /// Writes "accessors", "bufferViews" and "buffers" into an open object.
+  /// Writes accessors, views, buffer and, with a picture, its texture into the open root object.
   void describe(JsonText& json) const;
 
   /// Returns the whole file: header, `json` and the numbers.
@@ -261,8 +261,8 @@ void set_ranges(const Model& model, std::size_t sides, Mesh& mesh) {
   }
 }
 
-// Sizes of the nested shells of a flame. Each shell adds some light, so that the flame is bright where it is thick and
-// has no edge, in any drawing order. flame.png has a column per shell.
+// Sizes of a flame's nested shells, relative to its outline. Each shell adds some light, so that the flame is bright
+// where it is thick and has no edge, in any drawing order. flame.png has a column per shell.
 constexpr std::array kShells{1.0, 0.93, 0.82, 0.66, 0.46, 0.22};
 
 // A row of vertices made from a ring. Some rows form a drop around the wick below the base, and one closes the tip.
@@ -298,7 +298,7 @@ std::vector<float> mesh_vertices(const std::vector<float>& rings) {
   return ring_places(all, kSegments);
 }
 
-constexpr double kFlameDrop = 0.12;  // lower edge of the picture, as a share of the distance from base to tip
+constexpr double kFlameDrop = 0.12;  // flame.png's lower edge below the base, as a share of the flame's height at rest
 
 // Returns texture coordinates: the shell's column, and a row's height above the base in the outline at rest.
 std::vector<float> mesh_coordinates(const std::vector<float>& rest) {

@@ -57,7 +57,7 @@ void respond(const Rows& taps, std::size_t row, std::vector<double>& response) {
 constexpr int kWalks = 64;       // number of walks in parallel
 constexpr double kSeconds = 80;  // duration of each walk, in addition to the loop
 constexpr double kSettled = 4;   // seconds until a walk is independent of its start and responds fully to the wind
-constexpr int kMaxRounds = 64;   // batches of walks, 0.1 s of work each; a leaf of 60 falls needs 35 (95th percentile)
+constexpr int kMaxRounds = 64;   // batches of walks, 0.1 s each; a leaf of 60 recorded falls needs 35 (95th percentile)
 
 using Vector = std::array<double, 3>;
 

@@ -79,7 +79,7 @@ void write_path(const std::vector<double>& knots, std::span<const float> control
 // players; the last key has only its time.
 void write_keys(const OutlineView& view, const Take& take, const Frame& frame, JsonText& json) {
   json.object().value("sh", "ty").value("path", "nm").object("ks").value(1, "a").list("k");
-  const std::size_t last = take.frames - (take.loop ? 0 : 1);
+  const std::size_t last = take.frames - (take.loop || take.frames == 1 ? 0 : 1);
   for (std::size_t key = 0; key < last; ++key) {
     json.object().value(key, "t");
     json.object("o").values(std::vector{0}, "x").values(std::vector{0}, "y").end();

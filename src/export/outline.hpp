@@ -44,8 +44,8 @@ struct Surface {
 /// an unknown length (0) becomes 0.03, an unknown width the length.
 Surface leaf_blade(double half_first, double half_second);
 
-/// Checks that a take fits a model. Errors: another number of outputs; no frames or instances; a wrong number of
-/// values.
+/// Checks that a take fits a model. Errors: another number of outputs; no frames, instances or rate; a wrong number of
+/// values or, for a loop of a chain, of travels.
 Result<void> check_take(const Model& model, const Take& take);
 
 /// Replaces rows of an ARX or switched model's outputs by the periodic orbit under their own shocks: adds to each row

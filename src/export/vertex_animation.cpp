@@ -56,6 +56,9 @@ Surface surface_of(const Model& model, const Take& take) {
 
 Result<VertexAnimation> vertex_animation(const Model& model, const Take& take) {
   if (auto ok = check_take(model, take); !ok) return ok.error();
+  constexpr std::size_t kMaxFrames = 8192;  // of two rows each: 16384 is the largest texture of most engines
+  if (take.frames > kMaxFrames)
+    return Error{"there are " + std::to_string(take.frames) + " frames, expected at most 8192; ask for fewer seconds"};
   const Surface surface = surface_of(model, take);
   const auto& places = surface.places;
   if (places.empty())

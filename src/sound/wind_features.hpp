@@ -116,8 +116,8 @@ class Bands {
 constexpr float kNothingDb = -110;  ///< loudness below which there is no sound at all (a muted or starting stream)
 constexpr int kWarmHops = 15;       ///< hops until the 50 ms mean is settled
 
-/// Detects sudden sound of any kind: true from a rise of kStartDb over the slow mean until less than kEndDb over the
-/// slow mean before the rise. So sound that begins during a voice and outlasts it also counts.
+/// Detects sudden sound of any kind: from a rise of the loudness by kStartDb over its slow mean until it is less than
+/// kEndDb over that mean's value before the rise. So sound that begins during a voice and outlasts it also counts.
 template <class T>
 class Sudden {
  public:

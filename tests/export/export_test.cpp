@@ -255,6 +255,15 @@ TEST(VertexAnimation, ALeafTurnsAndMovesWithItsPose) {
   }
 }
 
+TEST(VertexAnimation, MoreFramesThanATextureHoldsAreRefused) {
+  const Model model = leaf();
+  const auto taken = take(model, {.seconds = 8200 / model.rate_hz});
+  ASSERT_TRUE(taken) << taken.error().message;
+  const auto made = vertex_animation(model, *taken);
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().message, "there are 8200 frames, expected at most 8192; ask for fewer seconds");
+}
+
 TEST(Gltf, AFlamesMorphTargetsAndWeightsMakeTheRingsThatABankDraws) {
   const Model model = *read_model(WISP_SOURCE_DIR "/apps/web/public/models/flame.wisp");
   auto bank = Bank::create(*in_the_round(model), {.seed = 4, .polyline_points = 24});
@@ -338,6 +347,18 @@ TEST(Lottie, PathsAreTheSplineItself) {
       EXPECT_NEAR(found[1] - first[1], -scale * (points[2 * k + 1] - points[1]), 0.02);
     }
   }
+}
+
+TEST(Lottie, AnAnimationOfOneFrameHasItsShape) {
+  const Model model = flame_model();
+  const auto taken = take(model, {.seconds = 1.2 / model.rate_hz});
+  ASSERT_EQ(taken->frames, 1u);
+  const auto text = lottie_text(model, *taken);
+  ASSERT_TRUE(text);
+  const Json layer = Json::parse(*text)["layers"][0];
+  const Json& path_keys = layer["shapes"][0]["it"][0]["ks"]["k"];
+  ASSERT_EQ(path_keys.size(), 2u);  // the frame, and the end
+  EXPECT_EQ(path_keys[0]["s"][0]["v"].size(), 6u);
 }
 
 #ifdef WISP_HAS_RLOTTIE

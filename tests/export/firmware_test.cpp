@@ -347,6 +347,18 @@ TEST_F(Firmware, WhatNoLampCanPlayIsSaid) {
   says(driven, "a lamp has none");
 }
 
+TEST_F(Firmware, ARateThatIsNoWholeNumberIsRefused) {
+  Model lamp = light();
+  for (const double rate : {12.5, 0.2}) {
+    lamp.rate_hz = rate;
+    const auto source = firmware_source(lamp, "lamp");
+    ASSERT_FALSE(source) << rate;
+    EXPECT_NE(source.error().message.find("steps a second, expected a whole number from 1"), std::string::npos);
+  }
+  lamp.rate_hz = 29.97;
+  EXPECT_TRUE(firmware_source(lamp, "lamp"));
+}
+
 TEST_F(Firmware, WhatFixedPointDoesNotHoldIsSaid) {
   const auto says = [](const Model& model, const std::string& words) {
     const auto source = firmware_source(model, "lamp");

@@ -386,5 +386,17 @@ TEST(Scripts, ThatAreWrongAreNamedByTheirLine) {
   EXPECT_FALSE(read_script(scratch("absent.txt")));
 }
 
+TEST(Scripts, AFolderIsNoEmptyScript) {
+  const auto events = read_script(testing::TempDir());
+  ASSERT_FALSE(events);
+  EXPECT_THAT(events.error().message, HasSubstr("cannot be read; expected a script of events"));
+}
+
+TEST(Pictures, HaveNamesOfTheirOwnAfterFrame99999) {
+  EXPECT_EQ(picture_name(1), "frame-00001");
+  EXPECT_EQ(picture_name(99'999), "frame-99999");
+  EXPECT_EQ(picture_name(100'001), "frame-100001");
+}
+
 }  // namespace
 }  // namespace wisp::window::player_test

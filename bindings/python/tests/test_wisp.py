@@ -56,6 +56,19 @@ class Learning(unittest.TestCase):
             fit = wisp.learn(recording, wisp.ArxRecipe(name="model", inputs=["u1"], outputs=["y1"], na=2, nb=2, nk=3))
             self.assertEqual(bytes(fit.model), path.read_bytes())
 
+    def test_a_linear_system_is_exported_as_by_the_program(self):
+        model = wisp.learn(made_system(), recipe).model
+        with tempfile.TemporaryDirectory() as folder:
+            here, there = pathlib.Path(folder) / "here", pathlib.Path(folder) / "there"
+            here.mkdir()
+            there.mkdir()
+            model.write(here / "system.wisp")
+            for name in ("system.c", "system.json"):
+                run("export", here / "system.wisp", "-o", there / name)
+                model.export(here / name)
+            for name in ("system.c", "system.h", "system.json"):
+                self.assertEqual((here / name).read_bytes(), (there / name).read_bytes(), name)
+
     def test_arrays_are_learned_from(self):
         fit = wisp.learn(made_system(), recipe)
         self.assertIsInstance(fit.report.usable, bool)
@@ -89,6 +102,8 @@ class Learning(unittest.TestCase):
             wisp.ArxRecipe(ordre=3)
         with self.assertRaises(wisp.Error):
             wisp.Recording(10, {"y": [1.0, 2.0]}, {"u": [1.0]})
+        with self.assertRaisesRegex(wisp.Error, "found 1 episode ids, expected one for each of the 2 rows"):
+            wisp.Recording(10, {"y": [1.0, 2.0]}, episodes=[1])
         with self.assertRaises(wisp.Error):
             wisp.read_model(root / "README.md")
 
@@ -100,6 +115,10 @@ class Learning(unittest.TestCase):
         with self.assertRaises(ZeroDivisionError):
             wisp.learn(made_system(), recipe, progress=lambda stage, share: 1 / 0)
         self.assertTrue(heard)
+        for answer in ("on", [1]):
+            wisp.learn(made_system(), recipe, progress=lambda stage, share: answer)
+        with self.assertRaisesRegex(ValueError, "ambiguous"):
+            wisp.learn(made_system(), recipe, progress=lambda stage, share: np.zeros(2))
 
 
 class Capturing(unittest.TestCase):
@@ -248,6 +267,8 @@ class EveryModel(unittest.TestCase):
                 self.assertFalse(bank.alive(third))
                 with self.assertRaises(KeyError):
                     bank.outputs(instance=third)
+                if model.dynamics == "switched":
+                    self.assertEqual(np.shape(model.noise_sd), (len(model.a), len(model.outputs)))
                 if model.dynamics == "chain":
                     first = bank.at(0)
                     bank.ground = -2
@@ -476,6 +497,12 @@ class Hearing(unittest.TestCase):
         pieces = [level.feed(block)["rms"] for block in np.array_split(sound, 17)]
         np.testing.assert_array_equal(np.concatenate(pieces), whole["rms"])
         self.assertEqual(len(whole["wind"]), 60)
+
+    def test_half_a_row_of_channels_is_refused(self):
+        level = wisp.WindLevel(44100, channels=2)
+        level.feed(np.zeros((441, 2), np.float32))
+        with self.assertRaisesRegex(ValueError, "found 883 samples, expected whole rows of 2 channels"):
+            level.feed(np.zeros(883, np.float32))
 
 
 if __name__ == "__main__":

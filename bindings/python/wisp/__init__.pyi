@@ -225,7 +225,7 @@ class Model:
     ranges: dict[str, tuple[float, float]]
     a: NDArray[np.float64]
     b: NDArray[np.float64]
-    noise_sd: list[float]
+    noise_sd: Union[list[float], list[list[float]]]  # of each mode of a switched model
     @property
     def poles(self) -> NDArray[np.complex128]: ...
     def write(self, path: Path) -> None: ...

@@ -20,9 +20,9 @@ struct TakeOptions {
   bool loop = false;             ///< the last frame is followed by the first one, continuous in value and velocity
   int instances = 1;             ///< 1 to 1000, each with its own random stream
   std::uint64_t seed = 1;        ///< seed of the random streams
-  bool noise = true;             ///< add the residual noise; a loop without it is constant
+  bool noise = true;             ///< add the residual noise; an ARX loop without it is constant; a chain's ignores it
   std::vector<double> inputs{};  ///< constant inputs of the model, in their units; missing ones are 0
-  bool round = false;  ///< play a flame as a body where possible, for glTF and vertex shaders; wind blows to the right
+  bool round = false;  ///< play a flame in 3D if in_the_round() can, for glTF and vertex shaders; wind blows along +x
   /// Rows of all inputs, one per frame, after settling under `inputs`; the last stays set. Not for loops.
   std::vector<float> schedule{};
 };
@@ -34,7 +34,7 @@ struct Take {
   std::size_t frames = 0;  ///< number of frames; of a loop: one period, without repeating the first frame
   std::size_t instances = 0;
   std::size_t outputs = 0;
-  std::size_t sides = 1;      ///< 2 for a flame played as a body: front view and, with z as x, side view
+  std::size_t sides = 1;      ///< 2 for a flame played in 3D: front view, then side view, whose x is the body's z
   std::vector<float> values;  ///< sides × frames × instances × outputs
   /// For a loop of bodies, per instance: displacement of one period, metres. A leaf falls; its attitude and velocity
   /// return, and the next period begins where this one ends.
@@ -52,10 +52,10 @@ struct Take {
 /// found.
 Result<Take> take(const Model& model, const TakeOptions& options);
 
-/// Exports a take as a binary glTF 2.0 file (.glb), in metres where the model knows its size, with all times at the
-/// model's rate. A body is a node with translation and rotation; its mesh, a leaf, lies in its first two axes. An
+/// Exports a take as a binary glTF 2.0 file (.glb), in metres where the model knows its size, with one key per frame
+/// of the take. A body is a node with translation and rotation; its mesh, a leaf, lies in its first two axes. An
 /// outline is a body of revolution, of translucent emissive shells, with one morph target per output of the model,
-/// named after the output; a flame played as a body has as many again for its side view. A weight is the output's
+/// named after the output; a flame played in 3D has as many again for its side view. A weight is the output's
 /// position between `lowest` (0) and `highest` (1), two lists in the mesh's extras, so that a bank's outputs can drive
 /// the same mesh live. For bodies the root node turns Wisp's z up into glTF's y up. A loop ends with its first frame
 /// again.
@@ -77,7 +77,7 @@ struct VertexAnimation {
 };
 
 /// Exports the vertices of an outline's body of revolution, in its units, y up, or of a leaf, in metres, z up.
-/// Errors: the model's outputs are neither an outline nor a pose; the take is not of this model.
+/// Errors: the model's outputs are neither an outline nor a pose; the take is not of this model, or above 8192 frames.
 Result<VertexAnimation> vertex_animation(const Model& model, const Take& take);
 
 /// C99 source for microcontrollers: one file with the model, and its header.
@@ -92,7 +92,7 @@ struct FirmwareSource {
 /// Shocks are drawn from 17 quantiles of the residuals if the model has them, else normal. `name` prefixes all names.
 /// Errors: not exactly one output; an input; a chain; more than 16 modes or 32 lags; a coefficient of 8 or more, or a
 /// mode's coefficients of 24 or more together; a mean beyond ±3.9, or a range that reaches more than 4 or less than
-/// 0.002 from it; a name that is no C identifier.
+/// 0.002 from it; a rate that is not within 0.5 % of a whole number; a name that is no C identifier.
 Result<FirmwareSource> firmware_source(const Model& model, std::string_view name);
 
 /// Languages in which plant_text() exports a plant.

@@ -44,7 +44,7 @@ struct VirtualMicrophoneOptions {
   double rate_hz = 44100;  ///< samples per second, 4000 … 192000
   double exponent = 2;     ///< amplitude ∝ wind^exponent, 0.5 … 4: 2 is stagnation pressure; an outdoor measurement
                            ///< gave about 1.5
-  double level = 0.12;     ///< root mean square of the sound at 1 m/s, full scale 1, 1e-6 … 1; gusts exceed 1 m/s
+  double level = 0.12;     ///< root mean square of the sound at 1 m/s, full scale 1, 1e-6 … 1; puffs exceed 1 m/s
   double corner_hz = 300;  ///< corner of the spectrum, flat below, −12 dB per octave above, 20 … 5000, ≤ 0.4 rate_hz
   double hiss = 4e-4;      ///< root mean square of the background, white, 0 … 0.1
   double other_sounds = 0.05;  ///< other sounds (half voice, half knocks): 1 / mean pause in s, 0 … 10; 0: none
@@ -81,7 +81,8 @@ struct CandleClipOptions {
   VirtualCameraOptions camera{};
   VirtualMicrophoneOptions microphone{};
   WindSignalOptions wind{};
-  std::optional<Recording> wind_recording{};  ///< if set, its only input, m/s, replaces `wind`; constant after its end
+  std::optional<Recording> wind_recording{};  ///< if set, its only input, m/s, replaces `wind`, which must then have
+                                              ///< neither blow-out nor puffs; constant after its end
   double seconds = 60;                        ///< length, 0.001 … 86400
   double settle_seconds = 1.5;  ///< time simulated in still air before the first frame, 0 … 60, for a steady flame
 };

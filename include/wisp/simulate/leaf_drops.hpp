@@ -11,16 +11,16 @@
 
 namespace wisp {
 
-/// Coefficients of the air's forces, dimensionless unless stated. The default is fitted to discs dropped vertically
-/// and, separately, horizontally.
+/// Coefficients of the air's forces, dimensionless unless stated. The default is fitted jointly to paper discs released
+/// on edge and paper discs released flat.
 struct LeafAir {
   double rotational_lift = 0.33;     ///< C_R, 0 … 10
   double translational_lift = 2.66;  ///< C_T, 0 … 10
   double drag_broadside = 3.09;      ///< C_D90, 0 … 20
   double drag_edgewise = 0.20;       ///< C_D0, 0 … drag_broadside
-  double damping_by_speed = 0.57;    ///< μ: torque about the axes in the leaf's plane ∝ spin · speed, 0 … 20
+  double damping_by_speed = 0.57;    ///< μ, 1/m: torque about the axes in the leaf's plane ∝ spin · speed, 0 … 20
   double damping_by_spin = 5.7;      ///< C_r: torque about these axes ∝ spin², 0 … 100
-  double spin_drag = 0.05;           ///< C_3: both torques about the leaf's normal, 0 … 20
+  double spin_drag = 0.05;  ///< C_3, 1/m: torques ∝ spin · speed and ∝ spin² about the leaf's normal, 0 … 20
 };
 
 /// Properties of the leaf and the air in which it falls. The default is the leaf of the training recordings.

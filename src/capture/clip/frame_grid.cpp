@@ -45,7 +45,7 @@ std::vector<std::string> FrameGrid::warnings(const std::string& name) const {
     char line[200];
     std::snprintf(
         line, sizeof line,
-        ": frames come at irregular times, up to %.1f ms off a rate of %.6g a second; outlines are interpolated",
+        ": frames come at irregular times, up to %.1f ms off a rate of %.6g a second; only outlines are interpolated",
         1000 * worst / rate_hz_, rate_hz_);
     out.push_back(name + line);
   }

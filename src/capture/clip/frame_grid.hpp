@@ -16,8 +16,8 @@ class FrameGrid {
   /// Precondition: rate_hz > 0.
   explicit FrameGrid(double rate_hz) : rate_hz_(rate_hz) {}
 
-  /// Returns the next frame's place (index on the grid): the nearest to its time `seconds` (any clock) after the last
-  /// place. Gaps of more than two seconds are shortened to two.
+  /// Returns the place (index on the grid) of a frame at `seconds` (on any clock): the place nearest to this time that
+  /// follows the last frame's. Gaps of more than two seconds are shortened to two.
   std::int64_t place(double seconds);
 
   /// Returns the place of a frame whose time is unknown: the one after the last.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 #include "capture/media/wide_colours.hpp"
 
@@ -95,9 +96,11 @@ Result<const AVFrame*> FramePictures::plain(const AVFrame& frame) {
   const bool square = size == std::pair(frame.width, frame.height), wide = has_wide_colours(frame);
   if (plain_bytes(format) && square && !wide) return &frame;
   const bool rgb = (format.flags & (AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_PAL)) != 0;
+  const bool jpeg = std::strncmp(format.name, "yuvj", 4) == 0;  // full range by its format: FFmpeg would convert it
   const AVPixelFormat target = wide                               ? AV_PIX_FMT_RGB48
                                : format.nb_components < 3 && !rgb ? AV_PIX_FMT_GRAY8
                                : rgb                              ? AV_PIX_FMT_RGB24
+                               : jpeg                             ? AV_PIX_FMT_YUVJ444P
                                                                   : AV_PIX_FMT_YUV444P;
   if (!take_frame(plain_, size, target)) return Error{"not enough memory for a frame"};
   to_plain_.reset(sws_getCachedContext(to_plain_.release(), frame.width, frame.height,

@@ -127,7 +127,8 @@ struct VideoWriter::Encoder {
 
 Result<void> VideoWriter::Encoder::open() {
   AVFormatContext* made = nullptr;
-  const int code = avformat_alloc_output_context2(&made, nullptr, kind.muxer, pending.path().c_str());
+  const std::string url = "file:" + pending.path().string();  // without "file:", a colon would end a protocol's name
+  const int code = avformat_alloc_output_context2(&made, nullptr, kind.muxer, url.c_str());
   if (code < 0) return error("this FFmpeg cannot write such files", code);
   format.reset(made);
   packet.reset(av_packet_alloc());
@@ -136,7 +137,7 @@ Result<void> VideoWriter::Encoder::open() {
   if (options.sound_rate_hz > 0) {
     if (auto opened = open_sound(); !opened) return opened;
   }
-  const int file = avio_open(&format->pb, pending.path().c_str(), AVIO_FLAG_WRITE);
+  const int file = avio_open(&format->pb, url.c_str(), AVIO_FLAG_WRITE);
   if (file < 0) return error("cannot be written", file);
   AVDictionary* settings = nullptr;
   if (!opacity()) av_dict_set(&settings, "movflags", "+faststart", 0);

@@ -124,7 +124,7 @@ class Shader {
         drips_(drips_of(seed, style.candle_width)),
         pixel_(1 / (0.1F * body.half)) {
     lean_ = std::clamp((own.place.x - body.middle) / (0.5F * body.unit), -1.0F, 1.0F);
-    // Farther neighbours change the result by less than one code.
+    // Farther neighbours change a pixel by less than one 8-bit code.
     for (const Lamp& lamp : others) {
       if (lamp.power > 0 && std::abs(lamp.place.x - body.middle) < 5 * body.unit) near_.push_back(lamp);
     }

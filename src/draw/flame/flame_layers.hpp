@@ -257,9 +257,9 @@ class Room {
   void light_table(const Stand& stand);
 
   int width_, height_;
-  LightField wood_;  // reflectance for a flame's light
-  LightField moon_;  // light without flames
-  Plane flames_;     // light of all flames, on a grid twice as coarse
+  LightField wood_;  // reflectance of wall and table for a flame's light
+  LightField moon_;  // light of wall and table without flames
+  Plane flames_;     // light of all flames that arrives there, on a grid twice as coarse
   LightField light_;
 };
 

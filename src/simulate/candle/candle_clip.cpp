@@ -228,6 +228,8 @@ Result<Recording> simulate_candle(const CandleClipOptions& options, const Candle
   const auto good = flow::check_ranges(
       "candle clip", {{"seconds", options.seconds, 1e-3, 86400}, {"settle_seconds", options.settle_seconds, 0, 60}});
   if (!good) return good.error();
+  if (options.wind_recording && (options.wind.blow_out_at >= 0 || options.wind.puff_every > 0))
+    return Error{"candle clip: blow-outs and puffs are not added to a recorded wind; leave them out"};
   auto wind = options.wind_recording ? WindSignal::from_recording(*options.wind_recording)
                                      : WindSignal::generate(options.wind, options.seconds);
   if (!wind) return wind.error();

@@ -28,7 +28,7 @@ struct FlameOutline {
   PointMm base;                         ///< midpoint of the contour's ends
   PointMm tip;                          ///< mean of the 2 % of the contour farthest from the base
   double height = 0;                    ///< height of the tip above the base, mm
-  double lean = 0;                      ///< inclination from upright, degrees, positive towards +x
+  double lean = 0;                      ///< angle of the line from base to tip from upright, degrees, positive to +x
   double area = 0;                      ///< area inside the contour, mm²
   double brightness = 0;                ///< light summed over the whole grid, in mm² of unit light
 };

@@ -73,7 +73,7 @@ constexpr std::array<float, 3> kBlueColour = {0.15F, 0.36F, 1.0F};
 constexpr float kBlueGain = 0.013F;  // exposure per 1/s of fuel burnt
 constexpr float kBlueVeil = 5.0F;    // attenuation of the blue light: by 1 / (1 + kBlueVeil · soot light)
 constexpr double kBlueFullMm = 4;    // height above the rim up to which blue is full: a candle is blue at its base
-constexpr double kBlueGoneMm = 16;   // height above which there is no blue: a planar flow has more than a camera sees
+constexpr double kBlueGoneMm = 16;   // height above which there is none: a planar flow has more blue than a camera sees
 constexpr double kGlowReachMm = 2.5;
 constexpr float kDark = 2e-4F;  // light below which every channel is black
 

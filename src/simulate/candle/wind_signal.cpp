@@ -84,7 +84,7 @@ std::vector<double> gusts(const WindSignalOptions& o, std::size_t count) {
 }
 
 // Returns the options for draughts of a closed room; of `o` only the seed is used. A flame's brightness then varies by
-// 0.6 to 1.6 % over ten seconds (mean of eight: 1.0 %). With a third of these draughts a capture takes it for a lamp.
+// 0.6 to 1.6 % over 10 s (mean of eight seeds: 1.0 %). With a third of this wind a capture takes the flame for a lamp.
 WindSignalOptions draughts(const WindSignalOptions& o) {
   return {
       .most = 0.05, .noise = 0.015, .bandwidth_hz = 1, .gust = 0, .rest_share = 0, .both_sides = true, .seed = o.seed};

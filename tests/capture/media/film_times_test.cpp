@@ -7,8 +7,10 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <numeric>
 #include <random>
 
+#include "capture/support/capture_outline.hpp"
 #include "capture/support/clip_files.hpp"
 #include "capture/support/made_clip.hpp"
 #include "wisp/capture/capture.hpp"
@@ -289,6 +291,74 @@ TEST_F(FilmTimes, PixelsThatAreNotSquareAreStretched) {
   const auto refused = VideoReader::open(folder_ / "absurd.mp4");
   ASSERT_FALSE(refused);
   EXPECT_THAT(refused.error().message, HasSubstr("20 times as wide as high; convert it to square ones"));
+}
+
+TEST_F(FilmTimes, StretchingKeepsTheFullRangeOfJpegPictures) {
+  film("flame.y4m");
+  const auto light = [&](const std::string& how) {
+    made("-i flame.y4m " + how + " -c:v mjpeg -q:v 2 -pix_fmt yuvj420p film.mov");
+    auto reader = VideoReader::open(folder_ / "film.mov");
+    EXPECT_TRUE(reader && reader->next());
+    const RgbImage image = reader->rgb();
+    return std::accumulate(image.pixels.begin(), image.pixels.end(), 0.0) / static_cast<double>(image.pixels.size());
+  };
+  EXPECT_NEAR(light("-vf setsar=2"), light(""), 2);
+}
+
+TEST_F(FilmTimes, ProgressEndsAtOneForAPartOfAFilmToo) {
+  film("flame.y4m");
+  made("-i flame.y4m -pix_fmt yuv420p film.mp4");
+  std::vector<double> shares{0};
+  const auto progress = [&](std::string_view, double share) {
+    shares.push_back(share);
+    return true;
+  };
+  support::ClipCaptureOptions options;
+  options.video.frames = FrameRange{11, 60};
+  ASSERT_TRUE(support::capture_outline(folder_ / "film.mp4", options, progress));
+  EXPECT_EQ(shares.back(), 1);
+  shares = {0};
+  ASSERT_TRUE(capture_brightness(folder_ / "film.mp4", {.frames = FrameRange{11, 60}}, progress));
+  EXPECT_EQ(shares.back(), 1);
+}
+
+TEST_F(FilmTimes, AFilmWithoutAReadableFrameIsNotCalledBlack) {
+  film("flame.y4m");
+  made("-i flame.y4m -pix_fmt yuv420p film.mp4");
+  std::fstream file(folder_ / "film.mp4", std::ios::in | std::ios::out | std::ios::binary);
+  const std::string bytes(std::istreambuf_iterator<char>(file), {});
+  const std::size_t begin = bytes.find("mdat") + 4;
+  file.seekp(static_cast<std::streamoff>(begin));
+  file << std::string(bytes.rfind("moov") - 4 - begin, '\0');
+  file.close();
+  const auto light = capture_brightness(folder_ / "film.mp4", {});
+  ASSERT_FALSE(light);
+  EXPECT_THAT(light.error().message, HasSubstr("has no frame that can be read"));
+}
+
+TEST_F(FilmTimes, ViewsAreJoinedByTheSoundFromTheirFirstReadableFrameOn) {
+  film("flame.y4m");
+  sound("puff.wav", 2, 2.6);
+  made("-i flame.y4m -i puff.wav -g 25 -keyint_min 25 -sc_threshold 0 -bf 0 -pix_fmt yuv420p -c:a pcm_s16le front.mkv");
+  // Without its first key frame, the next one, after a second, is the first frame that can be decoded.
+  made("-i front.mkv -c copy -bsf:v \"noise=drop='eq(n,0)'\" side.mkv");
+  const auto joined =
+      capture_views(std::vector{folder_ / "front.mkv", folder_ / "side.mkv"}, std::vector{0.0, 90.0}, {});
+  ASSERT_TRUE(joined) << joined.error().message;
+  const auto& row = joined->report.sections[0].tables[0].rows[1];
+  EXPECT_NEAR(std::get<double>(row[5]), 1, 0.05);  // seconds by the sound
+}
+
+TEST_F(FilmTimes, ViewsMayBeCutOff) {
+  film("flame.y4m");
+  sound("puff.wav", 2, 2.6);
+  made("-i flame.y4m -i puff.wav -g 25 -keyint_min 25 -sc_threshold 0 -bf 0 -pix_fmt yuv420p -c:a pcm_s16le front.mkv");
+  std::filesystem::copy_file(folder_ / "front.mkv", folder_ / "side.mkv");
+  std::filesystem::resize_file(folder_ / "side.mkv", std::filesystem::file_size(folder_ / "side.mkv") * 8 / 10);
+  const auto joined =
+      capture_views(std::vector{folder_ / "front.mkv", folder_ / "side.mkv"}, std::vector{0.0, 90.0}, {});
+  ASSERT_TRUE(joined) << joined.error().message;
+  EXPECT_LT(joined->recording.rows(), static_cast<std::size_t>(kFrames));
 }
 
 TEST_F(FilmTimes, AnEvenFilmIsLeftAsItIs) {

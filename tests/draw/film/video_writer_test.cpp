@@ -192,6 +192,17 @@ TEST(VideoWriter, AnOldClipStaysUntilTheNewOneIsFinished) {
   EXPECT_GT(std::filesystem::file_size(folder / "a.mp4"), 500U);
 }
 
+TEST(VideoWriter, ANameWithAColonIsNoProtocol) {
+  const TestFolder folder("video-colon");
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder / "");
+  for (const char* name : {"12:30.mp4", "12:30.apng"}) {
+    write_clip(name, {.width = 64, .height = 48, .rate_hz = 25}, 2);
+    EXPECT_TRUE(std::filesystem::exists(name)) << name;
+  }
+  std::filesystem::current_path(before);
+}
+
 TEST(VideoWriter, WithoutFramesThereIsNoClip) {
   const TestFolder folder("video-none");
   auto writer = VideoWriter::create(folder / "a.mp4", {.width = 64, .height = 48, .rate_hz = 25});

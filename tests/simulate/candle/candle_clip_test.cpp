@@ -91,6 +91,22 @@ TEST(CandleClip, FollowsARecordedWind) {
   EXPECT_GT(channel(clip.truth, "lean").samples.back(), 10);
 }
 
+TEST(CandleClip, RefusesBlowOutsAndPuffsBesideARecordedWind) {
+  CandleClipOptions options = short_clip();
+  options.wind_recording.emplace();
+  options.wind_recording->source = "wind.csv";
+  options.wind_recording->rate_hz = 10;
+  options.wind_recording->channels = {{"wind", "m/s", Role::kInput, std::vector<double>(6, 0.4)}};
+  CandleClipOptions puffs = options;
+  options.wind.blow_out_at = 0.1;
+  puffs.wind.puff_every = 5;
+  for (const CandleClipOptions& each : {options, puffs}) {
+    const auto truth = simulate_candle(each, {});
+    ASSERT_FALSE(truth);
+    EXPECT_THAT(truth.error().message, HasSubstr("not added to a recorded wind; leave them out"));
+  }
+}
+
 TEST(CandleClip, MissesTheOutlineWhileTheFlameIsOut) {
   CandleClipOptions options = short_clip();
   options.seconds = 2.2;

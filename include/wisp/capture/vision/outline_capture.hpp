@@ -27,7 +27,7 @@ struct OutlineCaptureOptions {
   std::optional<bool> underside;        ///< whether the curve includes the underside; none: if it fits better
   double rate_hz = 0;                   ///< frames a second, > 0
   std::string source;                   ///< name of the frames' source, for messages and the recording
-  std::size_t held_bytes = 48u << 20;   ///< bytes of buffered frames (8 or more) at which the first decisions are made
+  std::size_t held_bytes = 48u << 20;   ///< bytes of buffered frames, at least 8 frames, that start the first decisions
   int held_frames = 40;                 ///< number of buffered frames at which the first decisions are made, 8 to 200
 };
 

@@ -20,7 +20,7 @@ constexpr double kUnsteady = 5;          // grey levels: a pixel that deviates b
 constexpr double kMoments = 0.7;         // quantile over the frames that is compared with kUnsteady
 constexpr float kMadToSigma = 1.4826F;
 constexpr int kMinPixels = 4;     // minimum size of an object in pixels beyond the tolerance
-constexpr double kTypical = 0.9;  // quantile of its pixels' differences that is an object's contrast: edges differ less
+constexpr double kTypical = 0.9;  // an object's contrast is this quantile of its pixels' differences: edges differ less
 constexpr double kShadow = 0.35;  // share of the contrast below which a pixel is shadow or blur
 constexpr double kPixelVariance = 1.0 / 12;
 

@@ -18,7 +18,7 @@ constexpr double kFirstSpeed = 6;     // maximum initial speed, picture heights 
 constexpr double kChange = 2.5;       // tolerance of the predicted speed, heights a second, plus kShare of the speed
 constexpr double kShare = 0.6;        // tolerance as a share of the predicted speed, added to kChange
 constexpr double kMinReach = 3;       // minimum search radius, reduced pixels
-constexpr double kJoinSeconds = 0.2;  // longest gap or overlap of joined tracks; a cubic fits a 0.5 s swing in it
+constexpr double kJoinSeconds = 0.2;  // longest gap or overlap of joined tracks: a cubic across it fits 0.5 s swings
 constexpr double kJoinReach = 0.1;    // heights: maximum distance of joined tracks, extrapolated to mid-gap
 constexpr std::size_t kSteady = 3;    // minimum rows of a track; frames to judge speed, rest and exit
 

@@ -59,7 +59,7 @@ struct Scale {
   double width = 0, height = 0;  ///< of the picture, reduced pixels
 };
 
-/// Whether a fall was followed from its release to its end (kNo), or why not.
+/// Whether a fall was followed from its release to its end or the film's (kNo), or why not.
 enum class Cut {
   kNo,
   kSide,    ///< the object leaves or enters the picture at a side

@@ -48,7 +48,7 @@ std::vector<double> displaced(std::vector<double> place, const std::vector<doubl
   return place;
 }
 
-// Sets x and z of a blow, the direction of the mean tip displacement weighted by the wind, and `alike` to `strength`.
+// Sets a blow's direction (that of the mean tip displacement, weighted by the wind), `alike`, `answer`, `strength`.
 void direct(const std::vector<double>& wind, const std::vector<double>& x, const std::vector<double>& z,
             std::size_t lag, Blow& blow) {
   double sum_x = 0, sum_z = 0, all = 0, square = 0, cube = 0;

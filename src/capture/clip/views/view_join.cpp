@@ -65,7 +65,7 @@ std::optional<TimeOffset> time_offset(std::span<const double> first, std::span<c
 // A view's outlines in shape coordinates, y up, origin at the middle of the base at rest; empty without an outline.
 struct ViewRows {
   double right_x = 1, right_z = 0;  // horizontal unit vector to the camera's right
-  double begins = 0, scale = 1;     // first row, in rows of the first view; first view's pixels per pixel
+  double begins = 0, scale = 1;     // first row, in rows of the first view; first view's pixels per own pixel
   std::vector<Row> rows;
   Row height;  // height of the tip's control points above the base; NaN where missing
 
