@@ -23,8 +23,8 @@ const POLICY = [
 ].join('; ');
 
 /**
- * Adds the policy to the page and removes the indentation, which costs 35 bytes of transfer. Where WISP_ADDRESS is the
- * page's location, makes the address of the preview picture absolute, for programs that preview links.
+ * Adds the policy to the page and removes the indentation, which costs 35 bytes of transfer. If WISP_ADDRESS is set to
+ * the page's address, makes that of the preview picture absolute, for programs that preview links.
  */
 function page(): Plugin {
   const address = process.env.WISP_ADDRESS ?? '';

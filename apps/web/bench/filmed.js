@@ -13,7 +13,7 @@ const SECONDS = 2;
 const BEFORE = 2;
 /** Outlines kept per second; wind is kept at the recording's rate. */
 const RATE = 30;
-/** Clips with stronger wind are skipped, since it may extinguish the flame. */
+/** Clips with stronger wind (recording units) are skipped, since it may extinguish the flame. */
 const MOST_WIND = 1.3;
 const out = fileURLToPath(new URL('../public/models/filmed.json', import.meta.url));
 

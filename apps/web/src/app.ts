@@ -259,7 +259,7 @@ export class App {
   /** Shares a link to what plays, with a picture: by the device's share dialog, or as a copied link. */
   async send(): Promise<string> {
     const said = await this.copyLink();
-    if (!window.matchMedia('(pointer: coarse)').matches || !('share' in navigator)) return said;
+    if (said.startsWith('Too large') || !window.matchMedia('(pointer: coarse)').matches || !('share' in navigator)) return said;
     const { name } = this.settings;
     const data: ShareData = { title: name === '' ? 'Blow it out' : `For ${name}: blow it out`, url: location.href };
     const picture = new File([await this.stage.snapshot()], 'candle.png', { type: 'image/png' });
@@ -381,7 +381,7 @@ export class App {
     this.tuneButton.setAttribute('aria-pressed', String(this.parts?.tune.plays === true));
     if (allLit === this.wasLit) return;
     this.wasLit = allLit;
-    this.stage.canvas.setAttribute('aria-label', scene.describe());
+    this.stage.relabel();
     if (allLit) this.hint.hide();
     else this.hint.show(burning.of === 1 ? 'Tap the wick to light it again, or bring the match' : 'Tap a candle to light it again, or bring the match');
   }

@@ -1,5 +1,7 @@
 // Loading of page parts after the start, with retries.
 
+export { once } from '@wisp/player/parts/library';
+
 /** Milliseconds before each retry. */
 const WAITS = [300, 1200];
 
@@ -12,14 +14,4 @@ export async function fetchPart<T>(bring: () => Promise<T>, [wait, ...later]: re
     await new Promise((resolve) => setTimeout(resolve, wait));
     return fetchPart(bring, later);
   }
-}
-
-/** Returns a function that does the work at its first call, and again at a call after a failure. */
-export function once<T>(work: () => Promise<T>): () => Promise<T> {
-  let coming: Promise<T> | null = null;
-  return () =>
-    (coming ??= work().catch((error: unknown) => {
-      coming = null;
-      throw error;
-    }));
 }

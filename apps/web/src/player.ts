@@ -18,6 +18,8 @@ export interface Playing {
   /** whether the wind response is borrowed from the shipped flame */
   borrows: boolean;
   scene: Scene;
+  /** makes the scene anew, with the current settings */
+  make: () => Scene;
   /** tab of the scene; null: none */
   tab: SceneName | null;
 }
@@ -47,10 +49,10 @@ export class Player {
   /** Lets a flame learned without wind respond as the shipped one does. */
   async borrowWind(): Promise<void> {
     const { playing } = this;
-    if (!(playing?.scene instanceof CandleScene) || playing.borrows) return;
+    if (!(playing?.scene instanceof CandleScene)) return;
     const lender = this.wisp.model(await fetchShipped(FLAME));
     await playing.scene.borrow(lender);
-    if (this.playing === playing) {
+    if (this.playing === playing && !playing.borrows) {
       playing.borrows = true;
       this.changed(playing);
     }
@@ -79,8 +81,14 @@ export class Player {
     if (playing === null) return false;
     const { scene } = this.settings;
     if (change.model !== undefined && change.model !== before.model) return true;
-    if (change.scene !== undefined && (scene !== before.scene || !playing.shipped)) return true;
-    playing.scene.apply(this.sceneSettings(playing.tab));
+    if (change.scene !== undefined && (scene !== before.scene || scene !== playing.tab || !playing.shipped)) return true;
+    if (this.settings.seed === before.seed) playing.scene.apply(this.sceneSettings(playing.tab));
+    else {
+      // A scene takes its seed when it is made.
+      this.stage.show((playing.scene = playing.make()));
+      if (playing.borrows) this.borrowWind().catch(() => undefined);
+    }
+    this.stage.relabel();
     return false;
   }
 
@@ -91,26 +99,23 @@ export class Player {
 
   private async play(bytes: Uint8Array, file: string, shipped: boolean, turn: number): Promise<void> {
     const model = this.wisp.model(bytes);
-    const { scene, tab } = await this.sceneOf(model);
-    if (turn !== this.opening) {
-      scene.dispose();
-      model.free();
-      return;
-    }
+    const { make, tab } = await this.sceneOf(model);
+    if (turn !== this.opening) return model.free();
     const before = this.playing?.model;
+    const scene = make();
     this.stage.show(scene);
     before?.free();
-    this.playing = { scene, tab, model, bytes, file, shipped, borrows: false };
+    this.playing = { scene, make, tab, model, bytes, file, shipped, borrows: false };
     this.changed(this.playing);
   }
 
-  private async sceneOf(model: Model): Promise<{ scene: Scene; tab: SceneName | null }> {
-    if (model.view === 'outline') return { scene: new CandleScene(model, this.sceneSettings('candle')), tab: 'candle' };
+  private async sceneOf(model: Model): Promise<Pick<Playing, 'make' | 'tab'>> {
+    if (model.view === 'outline') return { make: () => new CandleScene(model, this.sceneSettings('candle')), tab: 'candle' };
     if (model.view === 'pose' || model.view === 'position') {
       const { LeavesScene } = await fetchPart(() => import('@wisp/player/parts/leaves/scene'));
-      return { scene: new LeavesScene(model, this.sceneSettings('leaves')), tab: 'leaves' };
+      return { make: () => new LeavesScene(model, this.sceneSettings('leaves')), tab: 'leaves' };
     }
     const { PlainScene } = await fetchPart(() => import('./plain/scene.js'));
-    return { scene: new PlainScene(model, this.sceneSettings(null)), tab: null };
+    return { make: () => new PlainScene(model, this.sceneSettings(null)), tab: null };
   }
 }

@@ -25,7 +25,7 @@ export class Probe {
   azimuth = 0;
   private readonly kept: FrameCost[] = [];
 
-  /** `places`: of wick and match, CSS pixels from the top left; null in other scenes. */
+  /** `places`: returns positions of wick and match, CSS pixels from the top left; null in scenes without a candle. */
   constructor(
     readonly sound: SoundPath,
     readonly places: () => { wick: [number, number]; match: [number, number] } | null,

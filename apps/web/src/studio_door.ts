@@ -74,12 +74,13 @@ export class StudioDoor {
     this.app.stage.loop.start();
   }
 
-  /** Plays a flame in the page's own scene, with the microphone. */
+  /** Plays a learned flame or fall in the page's own scene, and opens the microphone. */
   async blow(file: string, model: Uint8Array): Promise<void> {
     const { app } = this;
     await app.player.playFile(file, model);
     this.leave();
-    if (app.player.playing?.model.inputs.length === 0) {
+    if (app.player.playing?.tab !== 'candle') return;
+    if (app.player.playing.model.inputs.length === 0) {
       await app.player.borrowWind();
       app.notices.say('It was filmed without wind: how it leans and goes out is borrowed from the flame that comes with this page.');
     }
@@ -90,6 +91,7 @@ export class StudioDoor {
   async film(file: string, model: Uint8Array, kind: Moving): Promise<string> {
     const { app } = this;
     await app.player.playFile(file, model);
+    if (app.player.playing?.model.inputs.length === 0) await app.player.borrowWind();
     this.markTab();
     app.stage.loop.start();
     await after(LIT);

@@ -117,7 +117,7 @@ export function hugeFile(film, folder) {
   return huge;
 }
 
-/** Asserts that two recordings with a channel agree: to `most` pixels (decoders differ), and 0.001 of wind. */
+/** Asserts that two recordings agree: wind to 0.001, other columns to `most`. Both must have the column `channel`. */
 export function assertSame(ours, theirs, most = 0.01, channel = 'u:wind') {
   const rows = (text) => text.trim().split('\n').filter((line) => !line.startsWith('#')).map((line) => line.split(','));
   const [[head, ...found], [names, ...wanted]] = [rows(ours), rows(theirs)];

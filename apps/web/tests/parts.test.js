@@ -9,16 +9,18 @@ describe('a piece that is lost on its way', { skip }, () => {
   before(async () => (opened = await openBrowser()));
   after(() => opened?.close());
 
-  it('is fetched again: help, leaves and the studio open', async () => {
+  it('is fetched again: help, leaves, their model and the studio open', async () => {
     const page = await opened.page('#scene=candle&detail=0.1');
     const seen = new Set();
-    await page.route(/assets\/.*\.js$/, (route) => {
+    await page.route(/assets\/.*\.js$|leaf\.wisp$/, (route) => {
       const url = route.request().url();
       if (seen.has(url)) return route.continue();
       seen.add(url);
       return route.abort();
     });
     await page.focus('#stage');
+    await page.keyboard.press('2');
+    await until(page, 'the model is missing', () => /What plays goes on/.test(document.getElementById('notices').textContent));
     await page.keyboard.press('2');
     await until(page, 'leaves', () => document.querySelector('[data-scene=leaves]').getAttribute('aria-current') === 'true' && window.wisp.frames > 2);
     await page.keyboard.press('?');

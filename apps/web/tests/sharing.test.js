@@ -37,6 +37,7 @@ describe('sharing', { skip }, () => {
     await drop(page, 'mine.wisp', flame);
     await until(page, 'it plays', () => /Playing mine.wisp/.test(document.getElementById('notices').textContent));
     await openCard(page);
+    await page.fill('#card-name', 'Ada');
     await page.click('[data-file=send]');
     await until(page, 'it says where the link is', () => /Copied|address/.test(document.querySelector('[data-file=send]').textContent));
     const link = page.url();

@@ -190,6 +190,7 @@ describe('a table', { skip }, () => {
     await step(page, 'look');
     await page.click('[data-act=learn]');
     await says(page, '#notices', 'No delay is supported');
+    await says(page, panel, 'Film a flame, then blow it out');
   });
 
   it('says what will spoil a model before it is learned, and the cure', async () => {
@@ -216,6 +217,7 @@ describe('recorded falls', { skip: skip || noFilms }, () => {
     await page.click('[data-act=blow]');
     await until(page, 'it falls', () => document.getElementById('studio').hidden && document.querySelector('[data-scene=leaves]').getAttribute('aria-current') === 'true');
     await framesPass(page);
+    assert.doesNotMatch(await page.textContent('#notices'), /borrowed|microphone/);
   });
 });
 

@@ -207,7 +207,7 @@ export class Bank {
     return this.take('wisp_bank_polyline', this.rooms.polylines, this.polylinePoints * 2, instance);
   }
 
-  /** Body of revolution: sets the level camera of outputs and outlines by its right direction, the unit (x, z). */
+  /** Body of revolution: sets the level camera of outputs and outlines by its right direction, a unit vector (x, z). */
   look(rightX: number, rightZ: number): void {
     this.call('wisp_bank_look', rightX, rightZ);
   }

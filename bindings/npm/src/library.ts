@@ -35,6 +35,16 @@ export class Library {
   }
 }
 
+/** Returns a function that does the work at its first call, and again at a call after a failure. */
+export function once<T>(work: () => Promise<T>): () => Promise<T> {
+  let coming: Promise<T> | null = null;
+  return () =>
+    (coming ??= work().catch((error: unknown) => {
+      coming = null;
+      throw error;
+    }));
+}
+
 /** Fetches, compiles and starts the library. */
 export async function loadLibrary(options: LoadOptions = {}): Promise<Library> {
   return new Library(await Native.load(options));

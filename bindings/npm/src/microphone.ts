@@ -104,7 +104,7 @@ function settingsOf(track: MediaStreamTrack, context: AudioContext): MicrophoneS
   };
 }
 
-/** Milliseconds between checks for sound; silent checks above which the microphone is asleep, and is reopened. */
+/** Milliseconds between checks for sound; soundless checks in a row above which it is asleep, and is reopened. */
 const LOOK_EVERY = 500;
 const ASLEEP = 2;
 const STUCK = 4;

@@ -81,7 +81,7 @@ export class WindLevel {
     return at.valuesAt(this.native, this.frames, at.windFrame);
   }
 
-  /** Uses the coming seconds of sound, 0.5 to 30, as the requested sound. A number as `ask` does nothing. */
+  /** Calibrates with the coming `seconds` of sound, 0.5 to 30, as the requested sound. Numbers as `ask` are ignored. */
   calibrate(ask: WindAsk | number, seconds = 3): void {
     if (typeof ask === 'string') this.native.check(this.native.functions.wisp_wind_calibrate!(this.pointer, windAsks.indexOf(ask), seconds));
   }
@@ -96,8 +96,8 @@ export class WindLevel {
   }
 
   /**
-   * Rise of the room's level over its first seconds, or over its minimum since then, dB, ≥ 0. From 6 on something
-   * steady (rain, a fan) may be mistaken for wind; after reset() it counts as the room.
+   * Rise of the background's level above that of the first seconds, or above its minimum since then, dB, ≥ 0. From 6
+   * on a steady sound (rain, a fan) may be mistaken for wind; reset() takes that sound for background.
    */
   get roomRise(): number {
     return this.native.functions.wisp_wind_room_rise!(this.pointer);

@@ -69,10 +69,12 @@ describe('elements in Chromium', { skip }, () => {
     assert.deepEqual(await page.evaluate('heard'), ['extinguish', 'light']);
   });
 
-  test('attributes act while it plays: more candles, another model, and one that is not there', async () => {
+  test('attributes act while it plays: more candles, another seed, another model, and one that is not there', async () => {
     const page = await open(plain);
     await page.evaluate(`document.getElementById('one').setAttribute('candles', '5')`);
     await until(page, lit('one', 5));
+    await page.evaluate(`{ const one = document.getElementById('one'); window.kept = one.scene; one.setAttribute('seed', '4.5'); }`);
+    await until(page, `document.getElementById('one').scene !== kept && ${lit('one', 5)}`);
     await page.evaluate(`(() => { const one = document.getElementById('one');
       one.addEventListener('error', () => (window.failed = true)); one.setAttribute('src', 'models/none.wisp'); })()`);
     await until(page, 'window.failed');
@@ -129,6 +131,7 @@ describe('elements in Chromium', { skip }, () => {
     assert.equal(await page.evaluate(`document.getElementById('two').scene?.leaves().count ?? 0`), 0);
     await page.evaluate(`document.getElementById('two').scrollIntoView()`);
     await until(page, `document.getElementById('two').scene?.leaves().count === 20`);
+    assert.match(await page.evaluate(`document.getElementById('two').shadowRoot.querySelector('canvas').ariaLabel`), /20 of them/);
     assert.deepEqual(page.errors, []);
   });
 });

@@ -76,3 +76,7 @@ test('a candle shelters what is right behind it, and nothing else', () => {
   const crowd = Array.from({ length: 30 }, (_, k) => ({ x: 0, z: 0.1 * (k + 1) }));
   assert.equal(shelter({ x: 0, z: 0 }, crowd, 0, -1), 0.5);
 });
+
+test('a direction that is no unit vector is refused with its numbers', () => {
+  assert.throws(() => wisp.model(flame).bank().look(2, 0), /given \(2/);
+});

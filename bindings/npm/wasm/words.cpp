@@ -1,5 +1,5 @@
-// Formats error sentences without the C library's printf, which would add over 3 kB to the download. It supports the
-// formats used here: %s, %u, %zu, %016llx, and the %f of std::to_string().
+// Formats error sentences without the C library's printf, which would add over 3 kB to the download. It supports %s,
+// %u, %zu, %016llx, and the %f of std::to_string(); any other conversion writes nothing and takes no argument.
 
 #include <cmath>
 #include <cstdarg>

@@ -24,7 +24,7 @@ export interface CaptureSettings extends PictureSettings {
   name: string;
   /** frames a second */
   rate: number;
-  /** numbered pictures, without sound */
+  /** whether the frames are numbered picture files, without sound */
   pictures?: boolean;
 }
 

@@ -2,7 +2,7 @@
 
 import type { RawPicture } from './engine.js';
 
-/** Maximum number of pixels, above which a picture is reduced: a flame's edge is located to a tenth of a pixel. */
+/** Maximum number of pixels; larger pictures are reduced. It suffices, as edges are located to a tenth of a pixel. */
 const MAX_PIXELS = 3840 * 2160;
 
 const SHIFTS: Record<string, [number, number]> = { I420: [1, 1], I422: [1, 0], I444: [0, 0], NV12: [1, 1] };
@@ -71,6 +71,7 @@ function redrawn(shown: VideoFrame | ImageBitmap, width: number, height: number,
   const on = canvas.getContext('2d', { willReadFrequently: true })!;
   on.setTransform(1, 0, 0, 1, across / 2, down / 2);
   on.rotate((turn * Math.PI) / 180);
+  on.globalCompositeOperation = 'copy'; // nothing of the picture before shows through
   on.drawImage(shown, -wide / 2, -tall / 2, wide, tall);
   const data = new Uint8Array(on.getImageData(0, 0, across, down).data.buffer);
   return { layout: 'rgb', width: across, height: down, data, planes: [0, 1, 2].map((offset) => ({ offset, stride: 4 * across, step: 4 })) };

@@ -1,5 +1,5 @@
-// Small preview of a frame, made of the frame's own planes. Drawing a frame to a canvas uses the graphics card; where
-// that is emulated, it competes with the worker for two cores, and the page draws five pictures a second.
+// Small preview of a frame, averaged from the frame's own planes. Drawing the frame to a canvas instead is slow where
+// the processor emulates a graphics card: on two cores, beside the worker, the page then draws five pictures a second.
 
 import type { RawPicture } from './engine.js';
 

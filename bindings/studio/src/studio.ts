@@ -12,7 +12,7 @@ export interface LiveCapture {
   sound(samples: Float32Array, rate: number, seconds: number): void;
   /** number of frames waiting for analysis; if it grows, feed fewer */
   readonly waiting: number;
-  /** whether the capture accepts input; false once it has failed or ended, for a reason that `finish` reports */
+  /** false once it has ended, was cancelled or lost its worker; a failed analysis of frames only `finish` reports */
   readonly alive: boolean;
   /** Ends the capture. Rejects with a sentence if there is no usable recording. */
   finish(): Promise<Captured>;

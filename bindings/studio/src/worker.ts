@@ -39,12 +39,12 @@ function onDemand<T>(start: () => Promise<T>): () => Promise<T> {
 }
 
 // Literal addresses, which bundlers recognise.
-const engine = fetched(new URL('./studio.wasm', import.meta.url)).then((bytes) => Engine.start(bytes));
+const engine = onDemand(async () => Engine.start(await fetched(new URL('./studio.wasm', import.meta.url))));
 const chains = onDemand(async () => Engine.start(await fetched(new URL('./chains.wasm', import.meta.url))));
 const exporter = onDemand(async () => Exporter.start(await fetched(new URL('./export.wasm', import.meta.url))));
 
-// Callers that await the engine report its failure; without this an early failure would be unhandled.
-engine.catch(() => undefined);
+// Loaded at once. Callers that await the engine report its failure.
+engine().catch(() => undefined);
 
 const tell = (message: FromWorker, carried: Transferable[] = []): void => self.postMessage(message, { transfer: carried });
 
@@ -91,10 +91,7 @@ class Live {
   private work: Promise<void> = Promise.resolve();
   private readonly show: ReturnType<typeof showing>;
 
-  constructor(
-    private readonly of: number,
-    private readonly engine: Engine,
-  ) {
+  constructor(private readonly of: number, private readonly engine: Engine) {
     this.show = showing(of, engine);
   }
 
@@ -187,7 +184,7 @@ function watched(of: number, wisp: Engine): Engine {
 /** Runs work in the module responsible for it. */
 async function byEither<T>(of: number, work: (wisp: Engine) => T): Promise<T> {
   try {
-    return work(watched(of, await engine));
+    return work(watched(of, await engine()));
   } catch (error) {
     if (!(error instanceof Elsewhere)) throw error;
     return work(watched(of, await chains()));
@@ -196,7 +193,7 @@ async function byEither<T>(of: number, work: (wisp: Engine) => T): Promise<T> {
 
 async function perform(of: number, task: Task): Promise<Outcome | null> {
   if (task.do === 'export') return (await exporter()).files(task.model, task.settings);
-  const wisp = watched(of, await engine);
+  const wisp = watched(of, await engine());
   if (task.do === 'film' || task.do === 'pictures' || task.do === 'live') {
     if (live !== null) live.abandoned = true;
     live = null;

@@ -107,6 +107,11 @@ describe('the modules that learn', () => {
     assert.ok(why !== '' && rate > 0, why);
   });
 
+  test('reads a table that is not in UTF-8', async () => {
+    const latin = Buffer.from('time,u,y\ns,W,\u00b0C\n0,1,2\n0.1,2,3\n0.2,3,4\n', 'latin1');
+    assert.equal((await Engine.start(module)).table('latin.csv', latin, { inputs: ['u'], outputs: ['y'] }).series[1].unit, '\ufffdC');
+  });
+
   test('judges a table on rows that were kept back', async () => {
     const engine = await Engine.start(module);
     const recipe = { kind: 'arx', inputs: ['heat'], outputs: ['temperature'], order: 1, nk: 1, kept_back: 0.25 };

@@ -42,8 +42,8 @@ ClipCapture capture_options(const json& from) {
   return options;
 }
 
-// Maximum size of all stored reduced pictures: half a minute of a wide film at 60 frames a second takes 100 MB.
-constexpr std::size_t kMaxFallBytes = 192u << 20;
+// Maximum size of all stored reduced pictures: a minute of a 4:3 film at 60 frames a second takes 276 MB.
+constexpr std::size_t kMaxFallBytes = 288u << 20;
 
 FallOptions fall_options(const json& from) {
   return {.height_metres = from.value("height", 0.0), .region = region_of(from), .max_bytes = kMaxFallBytes};
@@ -65,7 +65,7 @@ Result<void> take_in(Desk& all, const Picture& picture, double seconds) {
   return capture.feed(picture);
 }
 
-// Returns the recording of falls if it is usable or alone, else that of the outline. Flames give no usable falls.
+// Returns the recording of falls if it is usable or only falls are sought, else the outline's. Flames give none usable.
 Result<Captured> finished(Desk& all) {
   const ClipTimes times{.offsets = all.grid->offsets(), .shortened = all.grid->shortened()};
   if (!all.falls) return all.capture->finish(times);

@@ -52,7 +52,7 @@ SomeRecipe with_settings(const json& from, SomeRecipe recipe) {
   return recipe;
 }
 
-// Returns the recipe; for a model of the other module a default one, in which of_chain() recognises that module.
+// Returns the recipe. For a kind that the other module learns, a default recipe by which of_chain() detects that.
 Recipe recipe_of(const json& from) {
   const std::string kind = from.value("kind", "flame");
   const bool chain = kind == "chain" || kind == "leaf";
@@ -129,7 +129,7 @@ WISP_STUDIO(learn) int studio_learn(const char* text, std::size_t size) {
   }
   Answer& out = fresh();
   out.bytes = std::move(*bytes);
-  out.text = answer.dump();
+  out.text = answer.dump(-1, ' ', false, json::error_handler_t::replace);
   return kDone;
 }
 
@@ -140,7 +140,7 @@ WISP_STUDIO(validate) int studio_validate(const std::byte* bytes, std::size_t si
   if (std::holds_alternative<ChainModel>(model->dynamics) != kLearnsChains) return elsewhere();
   const auto report = validate(*model, recordings(), {.responses = true}, progress());
   if (!report) return fail(report.error());
-  fresh().text = report_json(*report).dump();
+  fresh().text = report_json(*report).dump(-1, ' ', false, json::error_handler_t::replace);
   return kDone;
 }
 }

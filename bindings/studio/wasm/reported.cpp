@@ -61,7 +61,7 @@ int hand_over(const Recording& recording, const Report& report) {
   for (const Episode& episode : episodes(recording)) begins.push_back(episode.begin);
   text["episodes"] = std::move(begins);
   text["series"] = std::move(series);
-  out.text = text.dump();
+  out.text = text.dump(-1, ' ', false, json::error_handler_t::replace);
   return kDone;
 }
 

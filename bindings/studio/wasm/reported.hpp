@@ -9,7 +9,7 @@
 
 namespace wisp::studio {
 
-/// Returns {report, curves, text}: the report as --json prints it, its series for plots, and its text.
+/// Returns {report, curves, text}: the report as the program prints it with --json, its series, and as text.
 nlohmann::json report_json(const Report& report);
 
 /// Reads a table or a recording from CSV: {name, rate, inputs, outputs}.

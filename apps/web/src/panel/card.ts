@@ -13,6 +13,9 @@ const FIELDS: readonly { name: keyof typeof LETTERS; words: string; hint: string
   { name: 'wish', words: 'What the smoke says', hint: 'when the last flame is out' },
 ];
 
+/** The scene of a changed cake. A candle that burns keeps its model. */
+const inCandle = ({ player }: App): { scene?: 'candle' } => (player.playing?.tab === 'candle' ? {} : { scene: 'candle' });
+
 export class Card {
   private readonly fields = new Map<keyof typeof LETTERS, HTMLInputElement>();
   private readonly age = element('input', { type: 'number', id: 'card-age', min: 1, max: 999, inputmode: 'numeric', placeholder: 'years', input: () => this.changeAge() });
@@ -20,11 +23,7 @@ export class Card {
   private readonly tune = element('input', { type: 'checkbox', id: 'card-tune', input: () => void this.app.change({ tune: Number(this.tune.checked) }) });
   private readonly send = telling('Copy the link', 'send', '', () => this.app.send());
 
-  constructor(
-    private readonly place: HTMLElement,
-    private readonly app: App,
-    tune: Tune,
-  ) {
+  constructor(private readonly place: HTMLElement, private readonly app: App, tune: Tune) {
     this.send.classList.add('main');
     const hear = button('Hear it', () => (hear.textContent = tune.toggle() ? 'Silence' : 'Hear it'));
     place.append(
@@ -66,7 +65,7 @@ export class Card {
   }
 
   private field({ name, words, hint }: (typeof FIELDS)[number]): HTMLElement {
-    const change = (): void => this.app.change({ scene: 'candle', [name]: shortened(input.value, LETTERS[name]) });
+    const change = (): void => this.app.change({ ...inCandle(this.app), [name]: shortened(input.value, LETTERS[name]) });
     const input = element('input', { type: 'text', id: `card-${name}`, maxlength: LETTERS[name], placeholder: hint, autocomplete: 'off', 'data-card': name, input: change });
     this.fields.set(name, input);
     return element('div', { class: 'field' }, element('label', { for: `card-${name}` }, words), input);
@@ -76,6 +75,6 @@ export class Card {
   private changeAge(): void {
     const years = Math.min(999, Math.max(0, Math.floor(this.age.valueAsNumber || 0)));
     if (years > MAX_CANDLES) this.inFigures.checked = true;
-    this.app.change({ scene: 'candle', age: this.inFigures.checked ? years : 0, candles: Math.max(1, Math.min(MAX_CANDLES, years)) });
+    this.app.change({ ...inCandle(this.app), age: this.inFigures.checked ? years : 0, candles: Math.max(1, Math.min(MAX_CANDLES, years)) });
   }
 }

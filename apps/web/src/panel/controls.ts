@@ -62,12 +62,7 @@ export class Controls {
 
   /** Shows the microphone's state. `level`: strength of breath, 0 to 1. */
   hear(state: Hearing, level: number): void {
-    const words: Readonly<Record<Hearing, string>> = {
-      off: 'Blow',
-      asking: 'May I listen?',
-      listening: 'Listening',
-      asleep: 'Tap to wake',
-    };
+    const words = { off: 'Blow', asking: 'May I listen?', listening: 'Listening', asleep: 'Tap to wake' } as const;
     if (this.word !== state) {
       this.word = state;
       this.blowWord.textContent = words[state];

@@ -21,10 +21,7 @@ export class Drawer {
   private sensesOn = false;
   private address: string | null = null;
 
-  constructor(
-    private readonly place: HTMLElement,
-    private readonly app: App,
-  ) {
+  constructor(private readonly place: HTMLElement, private readonly app: App) {
     place.addEventListener('keydown', (event) => {
       if (event.key === 'Escape') app.showDrawer(false);
     });

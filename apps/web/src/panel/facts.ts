@@ -14,7 +14,7 @@ const KINDS: Readonly<Record<Model['view'], string>> = {
 };
 
 function inputOf({ name, unit, lowest, highest }: Model['inputs'][number]): string {
-  // A unit such as "0.73 1", which is 0.73 times the value 1 of a recording without a unit, is left out.
+  // Leaves out units such as "0.73 1": a scale of 0.73 on an input that the recording gave no unit ("1").
   const said = unit === '' || /1$/.test(unit) ? '' : ` ${unit}`;
   return `${name}, ${number(lowest, 2)} to ${number(highest, 2)}${said}`;
 }

@@ -38,10 +38,7 @@ export class PlainScene implements Scene {
   private wind = 0;
   private drawing: ({ gl: WebGL2RenderingContext; program: Program } & Vertices) | null = null;
 
-  constructor(
-    private readonly model: Model,
-    settings: SceneSettings,
-  ) {
+  constructor(private readonly model: Model, settings: SceneSettings) {
     this.bank = model.bank({ seed: settings.seed });
     this.bank.setNoise(settings.noise);
     this.id = this.bank.spawn();

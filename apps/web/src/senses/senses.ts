@@ -33,7 +33,7 @@ class Angle {
   }
 }
 
-/** Returns the picture's orientation, radians: right edge down, upper edge up, and azimuth of the right edge. */
+/** Angles of the picture, radians: roll, positive with the right edge down; pitch, with the upper edge up; azimuth. */
 function lie({ alpha, beta, gamma }: DeviceOrientationEvent): [roll: number, pitch: number, heading: number] | null {
   if (alpha === null || beta === null || gamma === null) return null;
   const [a, b, c, held] = [alpha, beta, gamma, window.screen.orientation?.angle ?? 0].map((degrees) => (degrees * Math.PI) / 180) as [number, number, number, number];

@@ -1,6 +1,6 @@
 // Chosen or dropped sources: films, pictures, tables; folders are read.
 
-/** Kind of source to learn from. */
+/** Files to learn from, all of one kind; or a sentence for the user that says why there are none. */
 export type Pick =
   | { kind: 'film' | 'pictures' | 'table'; files: File[] }
   | { kind: 'nothing'; words: string };

@@ -4,7 +4,7 @@ import type { Bank, Instance, Library } from '@wisp/player';
 import { FlameShape, MAX_POINTS } from '@wisp/player/parts/candle/flame_shape';
 import type { Outlines } from './outlines.js';
 
-/** Maximum forward step that is played, rows; a longer step restarts the play at its end. */
+/** Maximum number of rows played to reach a later row; for a row further ahead the model is reset and starts there. */
 const JUMP = 240;
 
 export class Play {
@@ -25,7 +25,7 @@ export class Play {
     this.hasWind = model.inputs.length > 0 && outlines.wind !== null;
     this.burns = model.facts.blowOut !== null;
     this.unit = model.provenance.figures.find(({ name }) => name === 'pixels_per_unit')?.value ?? outlines.height;
-    // The unit "0.95 1" means 0.95 of the recording's unit.
+    // The unit "0.95 m/s" of an input means that 1 in the model is 0.95 m/s in the recording.
     this.one = parseFloat(model.inputs[0]?.unit ?? '') || 1;
     model.free();
   }

@@ -1,5 +1,5 @@
-// Pictures kept of a film: for the strip, and for replay without a file. When their maximum number is
-// reached, every other one is dropped.
+// Small pictures kept of a film: for the strip, and for replay where there is no file. At their maximum number every
+// other one is dropped.
 
 import type { Region, Seen } from '@wisp/studio';
 

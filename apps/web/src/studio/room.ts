@@ -155,8 +155,8 @@ export class Room {
     this.stepTo('gather');
     this.viewer.clear();
     this.invite();
-    const { takes } = this.session;
-    const more = takes.length === 0 ? null : { count: takes.length, thing: thingOf(this.session), back: () => this.back() };
+    const { takes, learned } = this.session;
+    const more = takes.length === 0 || (learned === null && thingOf(this.session) === 'table') ? null : { count: takes.length, thing: thingOf(this.session), back: () => this.back() };
     this.showPanel(gatherPanel(this, more));
   }
 
@@ -334,7 +334,7 @@ export class Room {
     const { turn } = this;
     try {
       const filming = await Filming.open(await this.studio(), this.viewer, falls, this);
-      if (turn !== this.turn) return filming.close();
+      if (turn !== this.turn || this.place.hidden) return filming.close();
       this.filming = filming;
       this.stepTo('gather', falls ? 'fall' : 'flame');
       this.left.replaceChildren(this.viewer.place);

@@ -60,8 +60,8 @@ export function emptied({ takes }: Session): Session {
 /** Adds a take, in place of an earlier version of its film, or at the end. Takes of another kind are dropped first. */
 export function withTake(session: Session, take: Take): Session {
   const thing = shownIn(take);
-  const made = session.takes.some((one) => shownIn(one) !== thing) ? emptied(session) : session;
-  const before = made.takes.findIndex(({ name, film }) => name === take.name && film === take.film && film !== null);
+  const made = thingOf(session) === thing ? session : emptied(session);
+  const before = made.takes.findIndex(({ again }) => again !== null && again === take.again);
   made.takes[before]?.reel.close();
   made.takes.splice(before < 0 ? made.takes.length : before, before < 0 ? 0 : 1, take);
   const recipe = thing === 'fall' ? { ...recipeOfFalls(made.takes.map(({ captured }) => captured)), smooth_rows: smoothRows(take.captured.rate) } : made.recipe;

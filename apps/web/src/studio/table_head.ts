@@ -24,12 +24,16 @@ const cell = (text: string): string => text.trim().replace(/^"(.*)"$/, '$1');
 const numberOf = (text: string): number => (text === '' ? NaN : Number(text.replace(',', '.').replace(/d/i, 'e')));
 const isNumber = (text: string): boolean => text === '' || /^(nan|na|n\/a)$/i.test(text) || Number.isFinite(numberOf(text));
 
+/** Name of a column without role and unit, as the reader of tables splits it (src/record/csv_head.cpp). */
+export const nameOf = (column: string): string => column.replace(/^(u|y|m|flag):/, '').replace(/\[.*\]$/, '').trim();
+
 /** Whether a name suggests a column of times. */
 const isTime = (name: string): boolean => /^(t|time|seconds?|sec|zeit|millis|ms)(?![a-z])/i.test(name);
 
 export function headOf(bytes: Uint8Array): TableHead {
   const text = new TextDecoder().decode(bytes.subarray(0, LOOKED_AT)).replace(/^\uFEFF/, '');
   const all = text.split(/\r?\n/).filter((line) => line.trim() !== '' && !/^sep=/i.test(line));
+  if (bytes.length > LOOKED_AT && all.length > 1) all.pop(); // the last line is cut off
   const comments = all.filter((line) => /^[#%]/.test(line));
   const lines = all.filter((line) => !/^[#%]/.test(line)).slice(0, ROWS);
   const separator = separatorOf(lines[0] ?? '');
@@ -57,9 +61,10 @@ function columnOf(name: string, cells: readonly string[]): Curve {
 function withNames(bytes: Uint8Array, names: readonly string[], separator: RegExp): Uint8Array {
   const between = separator.source === '\\t' ? '\t' : separator.source === '\\s+' ? ' ' : separator.source;
   const head = new TextEncoder().encode(`${names.join(between)}\n`);
-  const made = new Uint8Array(head.length + bytes.length);
+  const rows = bytes.subarray(bytes[0] === 0xef ? 3 : 0); // without a byte order mark
+  const made = new Uint8Array(head.length + rows.length);
   made.set(head);
-  made.set(bytes, head.length);
+  made.set(rows, head.length);
   return made;
 }
 
@@ -94,6 +99,6 @@ function suggested(name: string, numeric: boolean): Role | null {
 export function rolesOf({ names, numeric }: TableHead): Role[] {
   const roles = names.map((name, k) => suggested(name, numeric[k] === true));
   const [goesIn, comesOut] = [roles.includes('input'), roles.includes('output')];
-  const rest = goesIn === comesOut || POSITION.every((name) => names.includes(name)) ? 'ignored' : goesIn ? 'output' : 'input';
+  const rest = goesIn === comesOut || POSITION.every((name) => names.map(nameOf).includes(name)) ? 'ignored' : goesIn ? 'output' : 'input';
   return roles.map((role) => role ?? rest);
 }

@@ -35,16 +35,15 @@ const POINTS = 56;
 function played(model: Model, { wind, rate, before, filmed }: Stretch, seed: number): Clip {
   const bank = model.bank({ polylinePoints: POINTS, seed });
   const flame = bank.spawn();
-  // The unit "0.95 1" means 0.95 of the recording's unit.
+  // The unit "0.95 m/s" of an input means that 1 in the model is 0.95 m/s in the recording.
   const one = parseFloat(model.inputs[0]?.unit ?? '') || 1;
   const outlines: Float32Array[] = [];
-  const steps = before + Math.round((filmed.outlines.length * rate) / filmed.rate);
-  const every = rate / filmed.rate;
-  for (let row = 0; row < steps; ++row) {
+  for (let row = 0; outlines.length < filmed.outlines.length; ++row) {
     if (model.inputs.length > 0) bank.setInstanceInputs(flame, [(wind?.[row] ?? 0) / one]);
     if (model.facts.blowOut !== null && !bank.flameState(flame).lit) bank.relight(flame);
     bank.advance(1e9 / rate);
-    if (row >= before && Math.floor((row - before) / every) === outlines.length) outlines.push(bank.polyline(flame).slice());
+    // A film of a lower rate than the clip's shows a row more than once.
+    while (outlines.length < filmed.outlines.length && row >= before + Math.floor((outlines.length * rate) / filmed.rate)) outlines.push(bank.polyline(flame).slice());
   }
   bank.free();
   return { rate: filmed.rate, outlines };

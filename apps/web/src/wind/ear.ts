@@ -76,8 +76,8 @@ export class Ear {
   private answer: ((heard: boolean) => void) | null = null;
   /** strength of breath, also while it does not reach the scene */
   private heard = 0;
-  /** RMS of sound: smoothed; quiet level before a calibration step; smoothed values since the step began; `plain`:
-   * of the hard blow on a microphone without low frequencies, else null */
+  /** RMS of sound: `smooth`: now; `quiet`: before a calibration step; `stepped`: `smooth` of each frame since it began;
+   * `plain`: of the hard blow on a microphone without low frequencies, else null */
   private smooth = 0;
   private quiet = 0;
   private stepped: number[] = [];

@@ -6,7 +6,7 @@ import { KeyBreath } from './keys.js';
 /** Milliseconds for which the microphone's last wind is used; after that it counts as silent. */
 const STALE = 250;
 
-/** Frames in which sound arrived and was first shown, for measuring latency. */
+/** Numbers of the page's frames in which a block of wind arrived and was first used, for measuring latency. */
 export interface SoundPath {
   /** number of wind blocks received from the microphone */
   heard: number;

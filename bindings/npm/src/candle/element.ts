@@ -30,15 +30,11 @@ export class WispCandle extends SceneElement {
 
   protected override watch(): void {
     const { lit, of } = this.burning;
-    if (this.lit && lit === 0 && of > 0) {
-      this.lit = false;
-      this.relabel();
-      this.dispatchEvent(new Event('extinguish'));
-    } else if (!this.lit && lit === of) {
-      this.lit = true;
-      this.relabel();
-      this.dispatchEvent(new Event('light'));
-    }
+    const now = this.lit ? lit > 0 || of === 0 : lit === of;
+    if (now === this.lit) return;
+    this.lit = now;
+    this.stage?.relabel();
+    this.dispatchEvent(new Event(now ? 'light' : 'extinguish'));
   }
 }
 

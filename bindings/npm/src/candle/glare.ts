@@ -5,7 +5,7 @@ import glareFragment from './shaders/glare.frag.js';
 import wholeVertex from './shaders/whole.vert.js';
 
 const LEVELS = 6;
-/** Weight of the coarser picture at each level, finest last. */
+/** Weight of the coarser picture in the blend at each level, from the coarsest to the finest. */
 const SPREAD = [0.5, 0.5, 0.5, 0.48, 0.45];
 
 export class Glare {

@@ -3,7 +3,7 @@
 import { FlameShape } from './flame_shape.js';
 import { smokeAfter } from './candle.js';
 
-const ERRAND = 0.75; // seconds for moving to a wick without a hand; 0.5 s later the match returns
+const ERRAND = 0.75; // seconds for moving to a wick when no pointer carries the match; 0.5 s later it returns
 const STRIKE = 0.22; // seconds of the strike, before the match moves
 const STRUCK = 0.34; // distance of the strike, room units
 const FLARES = 0.32; // decay time of the flare, seconds
@@ -65,7 +65,7 @@ export class Match {
     if (!this.burning && this.striking === 0) this.striking = STRIKE;
   }
 
-  /** Sends the match to a wick without a hand. */
+  /** Moves the match to a wick by itself, not carried by the pointer. */
   send(x: number, y: number): void {
     this.errand = { left: ERRAND + 0.5 };
     this.strike();

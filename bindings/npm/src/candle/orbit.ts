@@ -9,7 +9,7 @@ const RING = 6;
 export class Orbit {
   /** anticlockwise from above, radians; 0 where the flame was filmed */
   azimuth = 0;
-  /** lean of the last seen body's middle and tip away from the eye */
+  /** displacement away from the eye of the middle and the tip of the last seen body, flame units */
   middleAway = 0;
   tipAway = 0;
   private held: { x: number; azimuth: number } | null = null;

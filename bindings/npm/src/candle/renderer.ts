@@ -31,6 +31,8 @@ const SHIMMER = 0.0035;
 const MIN_PLUME = 0.02;
 /** Exposure in lit and dark rooms, and adaptation times in seconds to more and to less light. */
 const EXPOSURES = { lit: 1, dark: 8, brighter: 0.25, darker: 0.9 };
+/** Milliseconds after which a part that could not be loaded is tried again. */
+const AGAIN_MS = 3000;
 
 interface CandlePicture {
   setting: Setting;
@@ -124,7 +126,7 @@ export class CandleRenderer {
     if (after !== null) this.drawLate(after, view, shown, look);
     gl.disable(gl.BLEND);
     this.develop(after, look, shown);
-    this.bring();
+    if (this.after === null && hasRange(this.gl)) this.bring(() => import('./after.js'), ({ afterOf }) => (this.after = afterOf(this.gl, this.quad)));
     return true;
   }
 
@@ -141,15 +143,11 @@ export class CandleRenderer {
     const there = this.rooms[name];
     if (there !== undefined) return there.warm() ? there : null;
     if (name === 'table') this.furnish(name, table);
-    else if (!this.bringing) {
-      this.bringing = true;
-      void import('./cake.js').then(({ cake, Lettering }) => {
-        this.bringing = false;
-        if (this.gone) return;
+    else
+      this.bring(() => import('./cake.js'), ({ cake, Lettering }) => {
         this.lettering = new Lettering(this.gl);
         this.furnish('cake', cake);
       });
-    }
     return null;
   }
 
@@ -160,14 +158,15 @@ export class CandleRenderer {
     this.rooms[name] = { surface, light, warm: warming([surface, light]) };
   }
 
-  /** Loads the parts that the first picture does not need. */
-  private bring(): void {
-    if (this.bringing || this.after !== null || !hasRange(this.gl)) return;
+  /** Loads a part that the first picture does not need, one at a time; a while after a failure again. */
+  private bring<T>(part: () => Promise<T>, use: (part: T) => void): void {
+    if (this.bringing) return;
     this.bringing = true;
-    void import('./after.js').then(({ afterOf }) => {
+    const come = (found: T): void => {
       this.bringing = false;
-      if (!this.gone && !this.gl.isContextLost()) this.after = afterOf(this.gl, this.quad);
-    });
+      if (!this.gone && !this.gl.isContextLost()) use(found);
+    };
+    part().then(come, () => setTimeout(() => (this.bringing = false), AGAIN_MS));
   }
 
   /** Adapts the exposure to the amount of light. */
@@ -289,7 +288,7 @@ export class CandleRenderer {
     return sum;
   }
 
-  /** Sets up a candle or digit. `box`: bounds from its upper end; `nearer`: its flame's, to leave the own light out. */
+  /** Sets a candle's or digit's uniforms. `box`: bounds from its upper end; `nearer`: of its own light, left out. */
   private setWax(program: Program, view: RoomView, { stand, shape, ember }: Candle, nearer: number, box: number[]): Program {
     return this.setBoard(program, view, stand.x, stand.ground + stand.height, stand.z, stand.unit, box)
       .set('uRadius', stand.radius / stand.unit)
@@ -373,7 +372,7 @@ export class CandleRenderer {
     return Math.min(1.2, 1.6 * sum);
   }
 
-  /** Forces on the air, in picture heights. */
+  /** What stirs the air: places, widths and speeds in picture heights (a second); strengths without unit. */
   private stirring(view: RoomView, { candles, match, seconds, clock, breath, hand, wish }: CandlePicture): Stirring {
     this.heats.fill(0);
     this.wicks.fill(0);

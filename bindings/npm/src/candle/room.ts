@@ -11,7 +11,7 @@ export interface Stand {
   ground: number;
   height: number;
   radius: number;
-  /** room units per flame unit */
+  /** height of its calm flame (1 flame unit), room units */
   unit: number;
   wax: readonly [number, number, number];
   striped: boolean;

@@ -10,7 +10,7 @@ import { CandleRenderer } from './renderer.js';
 import { flameFoot, MAX_CANDLES, RoomView, settingFor, type Setting, type Stand } from './room.js';
 import { shelter, WindDelay } from '../air/delay.js';
 
-/** Points of a flame's outline; looks smooth up to a height of 500 pixels. */
+/** Number of points of a flame's outline, which looks smooth up to a flame height of 500 pixels. */
 const OUTLINE_POINTS = 40;
 const NANOSECONDS = 1e9;
 /** Seconds after the last extinction at which smoke writing starts and ends. */
@@ -53,10 +53,7 @@ export class CandleScene implements Scene {
   private lender: Lender | null = null;
   private disposed = false;
 
-  constructor(
-    private readonly model: Model,
-    settings: SceneSettings,
-  ) {
+  constructor(private readonly model: Model, settings: SceneSettings) {
     this.settings = { ...settings };
     this.round = roundOf(model);
     this.bank = (this.round ?? model).bank({ capacity: MAX_CANDLES + 1, polylinePoints: OUTLINE_POINTS, seed: settings.seed });
@@ -64,10 +61,10 @@ export class CandleScene implements Scene {
     this.seat();
   }
 
-  /** Borrows the wind response of another flame model, which may be freed afterwards. */
+  /** Borrows the wind response of another flame model, once; that model may be freed afterwards. */
   async borrow(from: Model): Promise<void> {
     const { Lender } = await import('./lender.js');
-    if (this.disposed) return;
+    if (this.disposed || this.lender !== null) return;
     this.lender = new Lender(from, MAX_CANDLES + 1, OUTLINE_POINTS);
     for (const candle of this.candles) candle.lent = this.lender.bank.spawn();
   }
@@ -155,7 +152,7 @@ export class CandleScene implements Scene {
 
   apply(settings: SceneSettings): void {
     const before = this.settings;
-    const reseat = settings.count !== before.count || settings.seed !== before.seed || settings.figures !== before.figures;
+    const reseat = settings.count !== before.count || settings.figures !== before.figures;
     this.settings = { ...settings };
     this.bank.setNoise(settings.noise);
     if (reseat) this.seat();

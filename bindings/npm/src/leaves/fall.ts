@@ -11,7 +11,7 @@ const FARTHEST = 3.4;
 const TOP = 2.75;
 /** Height below which a leaf lies on the ground. */
 const LYING = 0.035;
-/** Heaps: size of a ground cell, metres; half the columns; height added per leaf, metres; maximum leaves per cell. */
+/** Heaps: side of a ground cell, metres; half the number of columns; height of a leaf, metres; most leaves per cell. */
 const CELL = 0.16;
 const HALF_COLUMNS = 40;
 const LAYER = 0.0045;
@@ -53,6 +53,7 @@ export interface Gust {
 export class LeafFall {
   readonly shown = new Float32Array(LEAF_NUMBERS * MAX_LEAVES);
   count = 0;
+  wanted = 0;
   /** number of leaves on the ground */
   lying = 0;
   private readonly ids: Instance[] = [];
@@ -69,16 +70,11 @@ export class LeafFall {
   private readonly wide: boolean;
   private random: number;
   private clock = 0;
-  private wanted = 0;
   /** speed of the gust's local air */
   private stroke = 0;
 
   /** `bank`: empty, with room for MAX_LEAVES. */
-  constructor(
-    private readonly bank: Bank,
-    private readonly camera: LeafCamera,
-    seed: number,
-  ) {
+  constructor(private readonly bank: Bank, private readonly camera: LeafCamera, seed: number) {
     this.wide = bank.outputs >= 7;
     this.random = (seed * 2654435761) >>> 0 || 1;
     bank.setGround(0);

@@ -30,10 +30,7 @@ export class LeavesScene implements Scene {
   private kickLeft = 0;
   private readonly gust: Gust = { x: 0, z: 0, speedX: 0, speedZ: 0, everywhere: 0, kick: 0, kickX: 0, kickY: STIRRED_DEPTH, kickReach: 1 };
 
-  constructor(
-    private readonly model: Model,
-    settings: SceneSettings,
-  ) {
+  constructor(private readonly model: Model, settings: SceneSettings) {
     this.bank = model.bank({ capacity: MAX_LEAVES, seed: settings.seed });
     this.fall = new LeafFall(this.bank, this.camera, settings.seed);
     this.apply(settings);
@@ -94,7 +91,7 @@ export class LeavesScene implements Scene {
   }
 
   describe(): string {
-    return `Leaves fall in autumn light, ${this.fall.count} of them.`;
+    return `Leaves fall in autumn light, ${this.fall.wanted} of them.`;
   }
 
   dispose(): void {

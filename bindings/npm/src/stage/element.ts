@@ -1,6 +1,6 @@
 // Base of the package's elements: a canvas in a shadow root, a model, wind, and one WebAssembly module shared by all.
 
-import { type Library, loadLibrary } from '../library.js';
+import { loadLibrary, once } from '../library.js';
 import type { Model } from '../model.js';
 import type { Microphone } from '../microphone.js';
 import { Breath } from '../air/breath.js';
@@ -32,10 +32,8 @@ export function define(name: string, element: typeof SceneElement & (new () => S
   if (globalThis.customElements !== undefined && !customElements.get(name)) customElements.define(name, element);
 }
 
-let wisp: Promise<Library> | null = null;
-
 /** The library, loaded once for all elements of a page. */
-const shared = (): Promise<Library> => (wisp ??= loadLibrary());
+const shared = once(() => loadLibrary());
 
 /** Attributes of an element's tag in JSX. */
 export interface SceneAttributes {
@@ -65,7 +63,7 @@ export abstract class SceneElement extends Base {
   private readonly button = document.createElement('button');
   private readonly words = document.createElement('p');
   private readonly wind = new Breath();
-  private stage: Stage | null = null;
+  protected stage: Stage | null = null;
   private model: Model | null = null;
   private microphone: Microphone | null = null;
   /** numbers of the latest load, and of the latest opening of the microphone; results of earlier ones are dropped */
@@ -92,12 +90,12 @@ export abstract class SceneElement extends Base {
     this.listenToKeys();
   }
 
-  /** Address of the model where the page gives none. */
+  /** Address of the model played when the attribute `src` is missing. */
   protected abstract readonly usualModel: URL;
   protected abstract sceneOf(model: Model, settings: SceneSettings): Promise<Scene>;
   /** Number of candles or leaves. */
   protected abstract count(): number;
-  /** Called after each frame, where there is something to watch. */
+  /** Called after each frame; overridden by elements that dispatch events when the scene's state changes. */
   protected watch?(): void;
 
   connectedCallback(): void {
@@ -111,8 +109,8 @@ export abstract class SceneElement extends Base {
     this.stage.take();
     this.stage.loop.start();
     // Scenes out of view are not drawn.
-    this.seen = new IntersectionObserver(([entry]) => {
-      if (entry?.isIntersecting === true) this.stage?.loop.start();
+    this.seen = new IntersectionObserver((entries) => {
+      if (entries.at(-1)?.isIntersecting === true) this.stage?.loop.start();
       else this.stage?.loop.stop();
     });
     this.seen.observe(this);
@@ -132,9 +130,10 @@ export abstract class SceneElement extends Base {
 
   attributeChangedCallback(name: string, before: string | null, now: string | null): void {
     if (before === now || this.stage === null) return;
-    if (name === 'src') void this.play();
+    if (name === 'src' || name === 'seed') void this.play();
     else if (name === 'wind') this.showWind();
     else this.scene?.apply(this.settings());
+    this.stage.relabel();
   }
 
   /** The scene's own action: lights candles, kicks leaves. */
@@ -145,7 +144,7 @@ export abstract class SceneElement extends Base {
   private settings(): SceneSettings {
     const calm = matchMedia('(prefers-reduced-motion: reduce)').matches;
     return {
-      seed: numberOf(this, 'seed', 0, 2 ** 32 - 1, 1),
+      seed: Math.round(numberOf(this, 'seed', 0, 2 ** 32 - 1, 1)),
       noise: numberOf(this, 'noise', 0, 2, calm ? 0.3 : 1),
       count: this.count(),
     };
@@ -175,11 +174,6 @@ export abstract class SceneElement extends Base {
       this.say(error instanceof Error ? error.message : String(error));
       this.dispatchEvent(new ErrorEvent('error', { error, message: this.words.textContent ?? '' }));
     }
-  }
-
-  /** Updates the accessible description from the scene. */
-  protected relabel(): void {
-    if (this.scene !== null) this.canvas.setAttribute('aria-label', this.scene.describe());
   }
 
   private say(words: string): void {

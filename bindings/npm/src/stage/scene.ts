@@ -38,6 +38,7 @@ export interface Reading {
 
 /** Settings shared by scenes; each uses those that it knows. */
 export interface SceneSettings {
+  /** read when the scene is made */
   seed: number;
   /** scale of the learned noise */
   noise: number;

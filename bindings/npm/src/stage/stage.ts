@@ -81,7 +81,12 @@ export class Stage {
     this.scene = scene;
     this.fade = 0;
     if (this.gl !== null && !this.gl.isContextLost()) scene.attach(this.gl);
-    this.canvas.setAttribute('aria-label', scene.describe());
+    this.relabel();
+  }
+
+  /** Updates the canvas's accessible description from the scene. */
+  relabel(): void {
+    this.canvas.setAttribute('aria-label', this.scene?.describe() ?? '');
   }
 
   /** Releases the context, as a browser has few of them; take() gets it back. */

@@ -157,7 +157,7 @@ export class Camera {
       if (frame === undefined) return;
       const seconds = frame.timestamp / 1e6;
       this.latest = performance.now();
-      if (!this.heeds) offset = Math.min(offset, performance.now() / 1000 - seconds);
+      if (!this.heeds || offset === Infinity) offset = Math.min(offset, performance.now() / 1000 - seconds);
       const { live } = this;
       if (live !== null && live.waiting < MAX_WAITING && count % this.every === 0) live.frame(frame, seconds + offset);
       else frame.close();
@@ -228,7 +228,7 @@ export class Camera {
 
   private hear(samples: Float32Array<ArrayBuffer>, since: number): void {
     const rate = this.context?.sampleRate ?? 48_000;
-    if (!this.heeds) this.offset = Math.min(this.offset, performance.now() / 1000 - (since + samples.length / rate));
+    if (!this.heeds || this.offset === Infinity) this.offset = Math.min(this.offset, performance.now() / 1000 - (since + samples.length / rate));
     let sum = 0;
     for (const sample of samples) sum += sample * sample;
     this.events.loud(Math.sqrt(sum / samples.length));

@@ -51,7 +51,7 @@ export class Filming {
   private darkened = 0;
   private keeping = false;
   private act = '';
-  /** since when no picture arrives, as performance.now(); 0: pictures arrive */
+  /** performance.now() when pictures stopped arriving; 0 while they arrive */
   private sleeping = 0;
   private guide: Guide;
   private readonly hidden = (): void => {
@@ -134,11 +134,11 @@ export class Filming {
     return new Guide(this.falls ? 'falls' : this.hears ? 'flame' : 'mute flame');
   }
 
-  /** Starts the preview, which keeps nothing. */
-  private look(): void {
+  /** Starts a capture of one frame in `every`: by default the preview, which keeps nothing. */
+  private look(name = 'a look', every = PREVIEW_SHARE): void {
     this.live?.cancel();
-    this.live = this.studio.live('a look', this.camera.rate, this.settings, { seen: (seen) => this.take(seen) });
-    this.camera.feed(this.live, PREVIEW_SHARE);
+    this.live = this.studio.live(name, this.camera.rate, this.settings, { seen: (seen) => this.take(seen) });
+    this.camera.feed(this.live, every);
   }
 
   private press(): void {
@@ -152,12 +152,10 @@ export class Filming {
     // No warning about exposure for falls: only their positions count, and the words would cover them.
     if (said !== '' && !this.falls) this.room.say(said);
     if (this.state !== 'filming') return;
-    this.live?.cancel();
     this.reel = new Reel(1 / KEPT_RATE);
     this.guide = this.newGuide();
     this.count = new FallCount();
-    this.live = this.studio.live('camera', this.camera.rate, this.settings, { seen: (seen) => this.take(seen) });
-    this.camera.feed(this.live);
+    this.look('camera', 1);
     if (!this.falls) this.room.traceLive();
     this.began = performance.now();
     this.word.textContent = 'Stop';
@@ -175,7 +173,7 @@ export class Filming {
   }
 
   private tick(): void {
-    if (this.state === 'filming') this.advise();
+    if (this.state === 'filming' && this.began > 0) this.advise();
     if (this.state === 'looking' && this.live?.alive === false) this.look();
     const asleep = this.camera.asleep;
     if (!asleep) this.sleeping = 0;

@@ -20,6 +20,8 @@ function choice(name: keyof typeof ICONS, title: string, words: string, act: () 
 
 /** `more`: sources gathered earlier, to be learned together with the new one; `back` returns to them. */
 export function gatherPanel(room: Room, more: { count: number; thing: Thing; back: () => void } | null): HTMLElement {
+  // A table is not learned together with anything.
+  const first = more === null || more.thing === 'table';
   const chooser = (attributes: Attributes): HTMLInputElement => {
     const change = (): void => {
       const files = [...(input.files ?? [])];
@@ -39,19 +41,19 @@ export function gatherPanel(room: Room, more: { count: number; thing: Thing; bac
     choice('film', 'Choose a film', 'of a flame or of something that falls, from your phone or disk', () => film.click()),
     choice('falls', 'Film something that falls', 'a slip of paper, a leaf: dropped before a plain wall, again and again', () => void room.film(true)),
     choice('pictures', 'Folder of pictures', 'numbered frames', () => pictures.click()),
-    ...(more === null ? [choice('table', 'A table', 'CSV: what went in and what came out of anything', () => table.click())] : []),
+    ...(first ? [choice('table', 'A table', 'CSV: what went in and what came out of anything', () => table.click())] : []),
     film,
     pictures,
     table,
   );
-  const [title, words, last]: [string, string, HTMLElement] = more === null
-    ? ['Film a flame, then blow it out', BEGIN, element('p', { class: 'quiet' }, 'Or drop any of these here. All of it happens on this device: nothing is sent, and closing the page forgets it.')]
-    : ['Film more', wordsOfMore(more.count, more.thing), element('div', { class: 'actions' }, button('Back', 'back', () => more.back()))];
+  const [title, words] = first ? ['Film a flame, then blow it out', BEGIN] : ['Film more', wordsOfMore(more.count, more.thing)];
+  const last = more === null ? element('p', { class: 'quiet' }, HERE) : element('div', { class: 'actions' }, button('Back', 'back', () => more.back()));
   return panelOf(title, element('p', {}, words), choices, last);
 }
 
 const BEGIN =
   'Half a minute of a real candle is enough. Its outline is found in every picture, what the wind does to it is learned, and the flame that learned it is yours to blow at.';
+const HERE = 'Or drop any of these here. All of it happens on this device: nothing is sent, and closing the page forgets it.';
 
 const wordsOfMore = (count: number, thing: Thing): string =>
   `${count === 1 ? 'One film is' : `${count} films are`} kept. Another is learned together with ${count === 1 ? 'it' : 'them'}${thing === 'fall' ? ', if it is of the same thing falling.' : ': soft breaths in one, blowing out in the next.'}`;

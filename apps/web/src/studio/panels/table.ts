@@ -4,7 +4,7 @@ import type { TableSettings } from '@wisp/studio';
 import { element } from '../../panel/element.js';
 import { goOrBack, rateField } from './rate.js';
 import type { Room } from '../room.js';
-import { rolesOf, type TableHead } from '../table_head.js';
+import { nameOf, rolesOf, type TableHead } from '../table_head.js';
 import { inPage, remarksOf, rowsOf } from '../words.js';
 import { button, choice, list, panelOf } from './verdict.js';
 
@@ -23,7 +23,7 @@ export function tablePanel(name: string, bytes: Uint8Array, head: TableHead, roo
   const found = element('div', { 'data-advice': true, 'aria-live': 'polite' });
   let [said, looks, waiting] = [false, 0, 0];
   const chosen = (): TableSettings => {
-    const named = (role: (typeof ROLES)[number]): string[] => head.names.filter((_, k) => roles[k] === role);
+    const named = (role: (typeof ROLES)[number]): string[] => head.names.filter((_, k) => roles[k] === role).map(nameOf);
     return { ...(said ? { rate: rate.valueAsNumber } : {}), inputs: named('input'), outputs: named('output') };
   };
   const look = async (): Promise<void> => {

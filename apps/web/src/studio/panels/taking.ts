@@ -10,8 +10,8 @@ import { outputsOf, sessionName, thingOf, type Session } from '../session.js';
 import type { Thing } from '../words.js';
 
 async function copy(text: string): Promise<string> {
-  await navigator.clipboard.writeText(text);
-  return 'Copied';
+  const { clipboard } = navigator as { clipboard?: Clipboard };
+  return clipboard === undefined ? 'This browser does not let it be copied' : clipboard.writeText(text).then(() => 'Copied');
 }
 
 export type Moving = 'film' | 'gif';
@@ -39,7 +39,7 @@ export function takingOf(session: Session, { model }: Learned, room: Room): HTML
     const address = new URL(location.href);
     address.hash = new URLSearchParams({ scene: 'candle', seed: '1', model: await packModel(sent) }).toString();
     const said = await copy(address.href);
-    return whole ? said : `${said}, of ${Math.round(sent.length / 1000)} kB`;
+    return whole || said !== 'Copied' ? said : `${said}, of ${Math.round(sent.length / 1000)} kB`;
   });
   const tag = telling('A tag for a page', 'tag', '', () =>
     copy(`<script type="module" src="node_modules/@wisp/player/dist/candle/element.js"></script>\n<wisp-candle src="${name}.wisp" wind="mic"></wisp-candle>`),
@@ -52,22 +52,18 @@ export function takingOf(session: Session, { model }: Learned, room: Room): HTML
     fall: [file('glTF', 'glb')],
     table: outputs === 1 ? [file('C for a microcontroller', 'c')] : [],
   };
+  const where = thing === 'table' ? 'programs and on pages' : 'games, on pages and in films';
   return element(
     'section',
     { class: 'taking' },
     element('h3', {}, 'Take it away'),
     element('div', { class: 'actions' }, ...itself[thing]),
-    element('p', { class: 'quiet' }, `${Math.round(model.length / 100) / 10} kB. ${WHERE[thing]} The recording can be learned from again.`),
+    element('p', { class: 'quiet' }, `${Math.round(model.length / 100) / 10} kB. The model plays in ${where}. The recording can be learned from again.`),
     element('div', { class: 'actions' }, ...elsewhere[thing]),
     element('p', { class: 'quiet' }, thing === 'table' && outputs > 1 ? MANY_OUTPUTS : LOOPS[thing]),
   );
 }
 
-const WHERE: Readonly<Record<Thing, string>> = {
-  flame: 'The model plays in games, on pages and in films.',
-  fall: 'The model plays in games, on pages and in films.',
-  table: 'The model plays in programs and on pages.',
-};
 const LOOPS: Readonly<Record<Thing, string>> = {
   flame:
     'Loops of four seconds without a seam: glTF for Blender and engines, Lottie for apps; a sheet of pictures is made by the program (wisp export). ' +

@@ -11,7 +11,7 @@ const MAX_PLOTS = 6;
 
 const short = (value: number): string => (value === 0 ? '0' : String(Number(value.toPrecision(Math.abs(value) < 1e-3 ? 2 : 3))).replace('-', '−'));
 
-/** Curves to plot, in this order, by prefix of their ids, with the plot's title; others are not plotted. */
+/** Prefixes of ids of curves that are plotted, in the plots' order, each with the plot's title. */
 const FAMILIES: readonly (readonly [RegExp, string])[] = [
   [/^column/, ''],
   [/^fall\./, 'Recorded'],
@@ -167,8 +167,8 @@ function draw(canvas: HTMLCanvasElement, curves: readonly Curve[], scale: readon
   const surface = surfaceOf(canvas);
   if (surface === null) return;
   const { context, width, height } = surface;
-  let [left, right] = extent(scale.flatMap(({ x }) => [extent(x.filter(Number.isFinite))].flat()));
-  let [low, high] = extent(scale.flatMap(({ y }) => [extent(y.filter(Number.isFinite))].flat()));
+  let [left, right] = extent(scale.flatMap(({ x }) => x.filter(Number.isFinite)));
+  let [low, high] = extent(scale.flatMap(({ y }) => y.filter(Number.isFinite)));
   const places = curves.some(isPlace);
   if (places) {
     [left, right] = [Math.min(left, -1.05), Math.max(right, 1.05)];
