@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 
+#include "reports/learned_model.hpp"
 #include "wisp/capture/media/video.hpp"
 #include "wisp/learn/recipe_fields.hpp"
 
@@ -184,6 +185,8 @@ Result<void> check_outputs(const Command& command, const Arguments& arguments) {
       return Error{"--" + flag.name + " " + output + ": the name is of another kind of file, expected one such as " +
                    flag.value};
     }
+    if (flag.value == "DIR" || kind_of(output).empty()) continue;
+    if (auto ok = check_writable(output); !ok) return ok;
   }
   return {};
 }

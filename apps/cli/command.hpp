@@ -142,8 +142,8 @@ std::string wrong_words(std::span<const std::string> words);
 /// Returns whether writing a file would overwrite an input or a numbered image of an input folder, also through a link.
 bool would_destroy(const std::filesystem::path& written, const std::string& input);
 
-/// Checks file names. Errors: an output or one of its additional files would overwrite an input; an output's extension
-/// belongs to another kind of file; a file name contains a line break.
+/// Checks file names before long work. Errors: an output or one of its additional files would overwrite an input; an
+/// output's extension belongs to another kind of file; an output cannot be written; a file name contains a line break.
 Result<void> check_outputs(const Command& command, const Arguments& arguments);
 
 }  // namespace wisp::cli

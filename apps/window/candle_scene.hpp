@@ -55,8 +55,8 @@ class CandleScene {
 
   /// Sets the picture's size.
   void resize(int width, int height) {
-    width_ = width;
-    height_ = height;
+    width_ = width, height_ = height;
+    wake_.leave();  // its last place is in the former picture's unit
     painter_ = std::make_unique<LiveFlames>(width, height, style_);
     arrange();
   }
@@ -82,8 +82,8 @@ class CandleScene {
   void pointer_moved(Point pixel) {
     if (turning_) turn((pointer_.x - pixel.x) / static_cast<float>(width_) * 3.1415927F);
     pointer_ = pixel;
+    if (std::hypot(pixel.x - pressed_.x, pixel.y - pressed_.y) > kClickPixels) moved_ = true;  // no click
     if (turning_) return wake_.leave();
-    if (carried_ && std::hypot(pixel.x - pressed_.x, pixel.y - pressed_.y) > kClickPixels) moved_ = true;
     // The wind on a carried candle comes from the candle's own motion.
     if (carried_) {
       wake_.leave();
@@ -105,10 +105,7 @@ class CandleScene {
   }
   void pointer_released(Point pixel) {
     pointer_ = pixel;
-    if (!moved_) {
-      const Candle& candle = candles_[static_cast<std::size_t>(nearest(pixel))];
-      relight(candle);
-    }
+    if (!moved_) relight(candles_[static_cast<std::size_t>(nearest(pixel, true))]);
     carried_.reset();
     turning_ = false;
   }
@@ -304,12 +301,15 @@ class CandleScene {
     }
     return points;
   }
-  int nearest(Point pixel) const {
+  // Returns the candle nearest to a pixel, or of those that are out; of candles at one x, that of the nearest flame.
+  int nearest(Point pixel, bool out = false) const {
     int best = 0;
     float least = 1e30F;
     for (int k = 0; k < candles(); ++k) {
-      const float away = std::abs(candles_[static_cast<std::size_t>(k)].place.x - pixel.x);
-      if (away < least) best = k, least = away;
+      const Candle& candle = candles_[static_cast<std::size_t>(k)];
+      const float below = candle.place.y - 0.5F * unit_ - pixel.y;
+      const float away = std::abs(candle.place.x - pixel.x) + 0.1F * std::abs(below);
+      if (away < least && !(out && state_of(candle).lit)) best = k, least = away;
     }
     return best;
   }

@@ -55,8 +55,8 @@ class LeafScene {
   static constexpr int kMaxLeaves = 1000;
 
   void resize(int width, int height) {
-    width_ = width;
-    height_ = height;
+    width_ = width, height_ = height;
+    wake_.leave();  // its last place is in the former picture's unit
     painter_ = std::make_unique<LeafFlock>(width, height, leaf_camera_from_side(kViewHeight), style_);
   }
 

@@ -325,7 +325,7 @@ class Player {
     const std::string file = std::filesystem::path(path).filename().string();
     if (auto ok = load(path, {}); !ok) {
       std::string reason = ok.error().message;
-      if (reason.starts_with(path)) reason = reason.substr(path.size());
+      reason = reason.starts_with(path) ? reason.substr(path.size()) : ": " + reason;
       notice("cannot play " + file + reason);
       return;
     }

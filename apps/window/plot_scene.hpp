@@ -68,7 +68,7 @@ class PlotScene {
     for (std::size_t k = 0; k < shown.size(); ++k) {
       const Curve& curve = *shown[k];
       const LineStyle style{.colour = kPlotPalette[k % kPlotPalette.size()], .width = 2, .closed = false, .casing = 0};
-      const double range = std::max(1e-9, curve.highest - curve.lowest);
+      const double range = curve.highest > curve.lowest ? curve.highest - curve.lowest : 1;
       const float bottom = margin + band * static_cast<float>(k + 1) - 0.12F * band;
       std::vector<Point> line;
       for (std::size_t at = 0; at < curve.values.size(); ++at) {

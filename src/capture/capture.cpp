@@ -230,6 +230,7 @@ Result<Captured> capture_views(std::span<const std::filesystem::path> films, std
   if (auto ok = check_azimuths(azimuths, std::vector<std::string>(films.begin(), films.end())); !ok) return ok.error();
   if (options.frames) return Error{"frames are of one film, and of several the time that all have is taken"};
   std::vector<FilmedView> views;
+  std::vector<std::string> warnings;
   for (std::size_t k = 0; k < films.size(); ++k) {
     const auto again = std::find_if(films.begin(), films.begin() + static_cast<std::ptrdiff_t>(k),
                                     [&](const auto& other) { return same_file(other, films[k]); });
@@ -238,6 +239,7 @@ Result<Captured> capture_views(std::span<const std::filesystem::path> films, std
                    "; give a film of the same time from another side"};
     auto film = capture(films[k], options, progress);
     if (!film) return film.error();
+    std::ranges::move(film->report.warnings, std::back_inserter(warnings));
     if (!options.curve) options.curve = curve_of(film->recording);
     FilmedView view{azimuths[k], std::move(film->recording), {}, 0};
     auto reader = VideoReader::open(films[k], {.rate_hz = options.rate_hz, .frames = {}});
@@ -249,7 +251,9 @@ Result<Captured> capture_views(std::span<const std::filesystem::path> films, std
     }
     views.push_back(std::move(view));
   }
-  return join_views(views);
+  auto joined = join_views(views);
+  if (joined) joined->report.warnings = std::move(warnings);
+  return joined;
 }
 
 Result<Recording> capture_wind(const std::filesystem::path& path, double rate_hz, WindMeasure measure) {

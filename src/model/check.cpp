@@ -64,7 +64,7 @@ Result<void> check_dynamics(const Model& model, const ArxModel& arx) {
   if (auto ok = check_channels_of(model, arx.orders); !ok) return ok;
   const auto* outline = std::get_if<OutlineView>(&model.view);
   const ResampledResiduals& rows = arx.noise.resampled;
-  if (!rows.empty() && rows.across != static_cast<int>(outline ? outline->shape.across : 0))
+  if (outline && !rows.empty() && rows.across != static_cast<int>(outline->shape.across))
     return Error{"the resampled residuals have another number of components in z than the shape"};
   const double radius = spectral_radius(arx);
   if (!(radius < 1.0)) {

@@ -194,14 +194,18 @@ std::optional<double> seconds_of_date(std::string_view text) {
     if (code != std::errc() || rest == at) return std::nullopt;
     ++count, at = rest;
     if (at == end || *at == 'Z') break;
-    if (*at == '.' && (count == part.size() || (count == 3 && before[1] == ':'))) break;
+    const bool mark = *at == '.' || *at == ',', of_day = (count == 2 || count == 3) && before[1] == ':';
+    if (mark && (count == part.size() || of_day)) break;
     if ((*at == '+' && count >= 5) || (*at == '-' && count == part.size())) break;  // the zone
     if (std::string_view("-/.: T").find(*at) == std::string_view::npos) return std::nullopt;
     if (count < before.size()) before[count] = *at;
     ++at;
   }
+  const bool marked = at < end && (*at == '.' || *at == ',');
+  const std::string decimals = marked ? "." + std::string(at + 1, end) : "0";
   double fraction = 0;
-  if (at < end && *at == '.') read_number(at, end, fraction);
+  read_number(decimals.data(), decimals.data() + decimals.size(), fraction);
+  if (count == 2 && before[1] == ':' && marked) return 60 * part[0] + part[1] + fraction;  // Excel's mm:ss.0
   if (count >= 2 && before[1] == ':') return 3600 * part[0] + 60 * part[1] + part[2] + fraction;
   const bool dated =
       count >= 3 && before[1] == before[2] && std::string_view("-/.").find(before[1]) != std::string_view::npos;
@@ -246,11 +250,12 @@ bool moves_in_steps(std::span<const double> samples) {
   return 2 * still > samples.size();
 }
 
-// Returns a step rounded to the fewest digits, up to three, that change it by less than 1 %.
+// Returns a step rounded, itself or its rate, to the fewest digits, up to three, that change it by less than 1 %.
 double rounded_step(double step) {
   for (int digits = 1; digits < 4; ++digits) {
-    const double near = rounded(step, digits);
-    if (std::abs(near - step) < 0.01 * step) return near;
+    for (const double near : {rounded(step, digits), 1 / rounded(1 / step, digits)}) {
+      if (std::abs(near - step) < 0.01 * step) return near;
+    }
   }
   return step;
 }
@@ -282,8 +287,8 @@ Result<Recording> resampled(const Recording& recording, const std::vector<double
   const double step = rounded_step(sum / usual);
   Recording out = slice(recording, 0, 0);
   out.rate_hz = 1 / step;
-  const double length = std::floor((times.back() - times.front()) / step);
-  if (length > kMaxGrowth * static_cast<double>(times.size())) {
+  const double length = std::floor((times.back() - times.front()) / step + kRounding);
+  if (!(length <= kMaxGrowth * static_cast<double>(times.size()))) {  // an infinite time makes it NaN
     return Error{recording.source +
                  ": time has gaps of 1000 times as many rows as there are; split the table there, or say --rate HZ or "
                  "--dt S"};
@@ -299,8 +304,8 @@ Result<Recording> resampled(const Recording& recording, const std::vector<double
     const std::size_t nearest = share < 0.5 ? at : at + 1;
     for (std::size_t c = 0; c < out.channels.size(); ++c) {
       const auto& samples = recording.channels[c].samples;
-      const bool there = gap <= kGap * step || share == 0;
-      const double past = in_steps[c] && share < 1 ? 0 : share, from = samples[at], to = samples[at + 1];
+      const bool there = gap <= kGap * step || share < kRounding || share > 1 - kRounding;
+      const double past = in_steps[c] && share <= 1 - kRounding ? 0 : share, from = samples[at], to = samples[at + 1];
       const double value = past < kRounding ? from : past > 1 - kRounding ? to : from + past * (to - from);
       out.channels[c].samples.push_back(there ? value : std::numeric_limits<double>::quiet_NaN());
       if (there) errors[c].add(samples, nearest, past);

@@ -93,7 +93,8 @@ std::string unit_in_time_name(std::string_view name);
 std::optional<double> seconds_of(std::string_view unit);
 
 /// Returns the seconds since 1970 of a date with or without a time of day, such as 2024-01-31 13:05:00.25,
-/// 2024/01/31T13:05Z or 31.01.2024, or since midnight of a time of day alone; nothing for other text.
+/// 2024/01/31T13:05Z or 31.01.2024, or since midnight of a time of day alone, in which 05:00.5 are minutes and seconds;
+/// nothing for other text. The decimal mark is a point or a comma.
 std::optional<double> seconds_of_date(std::string_view text);
 
 /// Resamples rows of one episode, recorded at `times` in seconds, to an even step: the mean of the steps near the

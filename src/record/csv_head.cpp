@@ -64,7 +64,7 @@ bool is_row_of_units(std::string_view line, std::string_view next, char separato
   for_each_cell(line, separator, [&](const Cell& cell) {
     const bool one = cell.text == "1" || cell.text == "-";  // these mean dimensionless
     number |= !one && number_of(cell, separator).has_value();
-    text |= !one && !is_missing(cell) && !number_of(cell, separator);
+    text |= !one && !is_missing(cell) && !number_of(cell, separator) && !seconds_of_date(cell.text);
   });
   return text && !number && shape_of(next, separator).any_number;
 }
@@ -189,7 +189,8 @@ Result<void> CsvReader::State::read_rate(const CsvOptions& options) {
 }
 
 Result<void> CsvReader::State::read_attribute() {
-  const std::string_view line = csv::trimmed(csv::trimmed(lines.text()).substr(1));
+  std::string_view line = csv::trimmed(csv::trimmed(lines.text()).substr(1));
+  while (line.ends_with(',')) line.remove_suffix(1);  // a spreadsheet gives all lines as many cells
   const std::size_t space = line.find_first_of(" \t");
   const std::string key(line.substr(0, space));
   const std::string value(space == std::string_view::npos ? "" : csv::trimmed(line.substr(space)));
@@ -339,9 +340,9 @@ Result<void> CsvReader::State::read_units() {
 Result<void> CsvReader::State::read_columns(const CsvOptions& options) {
   const auto names = read_names(options);
   if (!names) return names.error();
-  const auto ahead = lines.look_ahead(kLookedAt - 1);
+  const auto ahead = lines.look_ahead(kLookedAt);  // units and two rows, or rows
   if (!ahead) return ahead.error();
-  const auto first = cells_of(ahead->size() < 2 ? std::string_view() : ahead->front().text, separator);
+  const auto first = cells_of(ahead->size() < 2 ? std::string_view() : (*ahead)[ahead->size() - 2].text, separator);
   const auto last = cells_of(ahead->empty() ? std::string_view() : ahead->back().text, separator);
   std::vector<bool> still(names->size());  // columns with equal cells in both lines
   for (std::size_t k = 0; k < names->size(); ++k) {

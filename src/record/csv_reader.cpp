@@ -104,7 +104,9 @@ Result<bool> Lines::next() {
       if (row_ == 1 && is_utf16(line)) return at_row("is UTF-16; save it as UTF-8 (Excel: \"CSV UTF-8\")");
       return at_row("holds bytes that are not text; expected a CSV file");
     }
-    if (!trimmed(line).empty() && !(pass_comments_ && is_comment(line))) return true;
+    const bool row =
+        !trimmed(line).empty() || std::cmp_greater_equal(std::count(line.begin(), line.end(), '\t'), blank_row_);
+    if (row && !(pass_comments_ && is_comment(line))) return true;
   }
 }
 
@@ -152,7 +154,9 @@ Result<CsvReader> CsvReader::open(std::istream& stream, std::string_view name, c
   if (auto ok = state->read_attributes(); !ok) return ok.error();
   if (auto ok = state->read_columns(options); !ok) return ok.error();
   if (auto ok = state->read_rate(options); !ok) return ok.error();
-  state->marks.resize(state->columns.size());
+  const std::size_t count = state->columns.size();
+  if (state->separator == '\t' && !state->time && count > 1) state->lines.take_blank_rows(count - 1);
+  state->marks.resize(count);
   using Kind = State::Column::Kind;
   state->plain_columns = state->separator != csv::kBlanks;
   for (const auto& column : state->columns) {

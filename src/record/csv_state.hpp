@@ -25,8 +25,8 @@ class Lines {
   /// Precondition: `stream` outlives this object. `name` stands for the stream in messages.
   Lines(std::istream& stream, std::string_view name) : stream_(&stream), name_(name) {}
 
-  /// Advances to the next line that is not blank; false at the end. Lines end in LF, CR LF or CR. Errors: bytes that
-  /// are not text, a line longer than 16 MiB.
+  /// Advances to the next line that is not blank or is a row; false at the end. Lines end in LF, CR LF or CR. Errors:
+  /// bytes that are not text, a line longer than 16 MiB.
   Result<bool> next();
 
   /// Returns the line, without its end; a view that is valid until the next call.
@@ -41,6 +41,9 @@ class Lines {
 
   /// Makes next() skip comment lines (#, "# …" or %…) from here on.
   void pass_comments() { pass_comments_ = true; }
+
+  /// Makes blank lines with at least `tabs` tabs rows of missing samples from here on.
+  void take_blank_rows(std::size_t tabs) { blank_row_ = tabs; }
 
   Error at_row(const std::string& what, std::size_t row = 0) const {
     return {name_ + ", row " + std::to_string(row > 0 ? row : row_) + ": " + what};
@@ -61,6 +64,7 @@ class Lines {
   bool over_ = false;  // the stream has ended
   bool plain_ = true;  // so far only text bytes, and no CR without LF
   bool pass_comments_ = false;
+  std::size_t blank_row_ = std::string::npos;  // minimum number of tabs in a blank line that is a row
 };
 
 }  // namespace wisp::csv

@@ -107,6 +107,14 @@ TEST_F(Clip, BecomesARecordingAModelAndPictures) {
   for (const char* name : {"overlay.mp4", "strip.png", "figures/flicker.svg", "figures/residual-noise.png"}) {
     EXPECT_GT(fs::file_size(at(name)), 1000u) << name;
   }
+  write_clip("short.mp4", 30);
+  const std::string other =
+      "validate " + at("m.wisp") + " " + at("rec.csv") + " --clip " + at("short.mp4") + " --overlay ";
+  const Said early = wisp(other + at("early.mp4")), never = wisp(other + at("never.mp4") + " --frames 60:90");
+  EXPECT_EQ(early.status, 0) << early.err;
+  EXPECT_THAT(early.err, HasSubstr("short.mp4: ends after 30 of the recording's 90 rows"));
+  EXPECT_EQ(never.status, 1);
+  EXPECT_THAT(never.err, HasSubstr("short.mp4: ends after 0 of the recording's 90 rows"));
   EXPECT_EQ(wisp("run " + at("m.wisp") + " --frames 40 --instances 2 -o " + at("flame.mp4")).status, 0);
   EXPECT_GT(fs::file_size(at("flame.mp4")), 1000u);
 }
@@ -267,6 +275,20 @@ TEST_F(Clip, AFolderWithOneImageOfAnotherSizeNamesIt) {
   expect_refused("capture flame --rate 30 " + at("frames"), "113.png");
   fs::remove(at("frames/113.png"));
   EXPECT_EQ(wisp("capture flame --rate 30 " + at("frames") + " -o " + at("ok.csv")).status, 0);
+}
+
+TEST_F(Clip, TheLightOfImagesTakesAnyFlagOfTheirRateOrRefusesIt) {
+  fs::create_directories(at("frames"));
+  for (int k = 0; k < 5; ++k) ASSERT_TRUE(write_png(at("frames/" + std::to_string(k) + ".png"), flame_frame(k)));
+  const std::string light = "capture brightness " + at("frames");
+  ASSERT_EQ(wisp(light + " --dt 0.05 -o " + at("light.csv")).status, 0);
+  const auto recording = read_csv(at("light.csv"));
+  ASSERT_TRUE(recording) << recording.error().message;
+  EXPECT_NEAR(recording->rate_hz, 20, 1e-9);
+  expect_refused(light + " --rate -4", "--rate: found \"-4\", expected frames a second above 0", 2);
+  expect_refused(light + " --rate 1e12", "--rate: 1e+12 samples a second", 2);
+  expect_refused(light + " --rate 30 --columns a,b", "--columns is of a table", 2);
+  expect_refused("capture fall " + at("frames") + " --rate 0", "--rate: found \"0\"", 2);
 }
 
 TEST_F(Clip, CutInHalfIsUsedAsFarAsItGoesOrRefused) {

@@ -110,6 +110,17 @@ TEST_F(Faults, NamesOfAnotherKindOfFileAreRefused) {
   EXPECT_EQ(wisp("capture flame " + at("a.mp4") + " -o " + at("a.txt")).err.find("another kind"), std::string::npos);
 }
 
+TEST_F(Faults, AnOutputInAMissingFolderIsFoundBeforeAnythingIsRead) {
+  for (const std::string& line :
+       {std::string("learn arx no.csv --inputs u --outputs y -o nowhere/m.wisp"),
+        std::string("learn flame no.mp4 -o nowhere/m.wisp"), std::string("capture flame no.mp4 -o nowhere/rec.csv"),
+        std::string("validate ") + kFlame + " no.mp4 --overlay nowhere/o.mp4"}) {
+    const Said said = wisp(line);
+    EXPECT_EQ(said.status, 1) << line;
+    EXPECT_THAT(said.err, AllOf(testing::StartsWith("wisp: nowhere/"), HasSubstr("cannot be written"))) << line;
+  }
+}
+
 TEST_F(Faults, OutputThatCannotBeWrittenIsStatus1) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   for (const std::string& words : {std::string("info ") + kFlame + " --json", std::string("--help"),

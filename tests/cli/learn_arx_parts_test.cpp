@@ -174,14 +174,24 @@ TEST_F(LearnArxParts, WhatIsMissingOnTheCommandLineIsNamed) {
   EXPECT_FALSE(std::filesystem::exists(at("p.part")));
 }
 
-TEST_F(LearnArxParts, FlagsThatNeedRowsDoNotGoWithMerge) {
+TEST_F(LearnArxParts, FlagsThatNeedRowsOrContradictThePartsDoNotGoWithMerge) {
   const std::string parts = write_parts(2);
-  for (const char* flag : {"--search na=1:2", "--range 1:100"}) {
+  for (const char* flag :
+       {"--search na=1:2", "--range 1:100", "--inputs push", "--outputs here", "--na 9", "--coupling diagonal"}) {
     const Said said = wisp("learn arx --merge" + parts + " -o " + at("m.wisp") + " " + flag);
     EXPECT_EQ(said.status, 2) << flag;
     EXPECT_THAT(said.err, HasSubstr("does not go with --merge: parts hold no rows")) << flag;
   }
   EXPECT_FALSE(std::filesystem::exists(at("m.wisp")));
+}
+
+TEST_F(LearnArxParts, APartIsWrittenInThePlaceOfAModelNotBesideIt) {
+  for (const std::string& flag : {"-o " + at("m.wisp"), "--figures " + at("figures")}) {
+    const Said said = wisp("learn arx " + whole() + " --partial " + at("p.part") + " " + flag);
+    EXPECT_EQ(said.status, 2) << flag;
+    EXPECT_THAT(said.err, HasSubstr("is of a model, and --partial writes a part instead")) << flag;
+  }
+  EXPECT_FALSE(std::filesystem::exists(at("p.part")));
 }
 
 TEST_F(LearnArxParts, APartTwiceOrOneMissingIsRefused) {

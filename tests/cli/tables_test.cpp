@@ -234,6 +234,34 @@ TEST_F(Tables, ARecordingOfAnotherRateIsRefused) {
   }
 }
 
+TEST_F(Tables, ATableOfAModelThatResamplesStatesItsOwnRate) {
+  const std::string m = at("slow.wisp");
+  const std::string flags = " --inputs u --outputs y --rate 10 --prepare resample:5 --na 1 --nb 2 --nk 0 -o ";
+  ASSERT_EQ(wisp("learn arx " + plain() + flags + m).status, 0);
+  for (const std::string& line :
+       {"validate " + m + " " + plain(), "predict " + m + " " + plain() + " -o " + at("p.csv"),
+        "compare " + plain() + " " + m}) {
+    const Said said = wisp(line);
+    EXPECT_EQ(said.status, 1) << line;
+    EXPECT_THAT(said.err, HasSubstr("states no rate")) << line;
+    EXPECT_EQ(wisp(line + " --rate 10").status, 0) << line;
+  }
+}
+
+TEST_F(Tables, FlagsOfFilmsAreRefusedWhereATableIsJudged) {
+  const std::string models = WISP_SOURCE_DIR "/tests/c/models/";
+  for (const std::string flag : {"--frames 1:100", "--own-gain", "--dark"}) {
+    for (const std::string& model : {model(), models + "leaf.wisp"}) {
+      const Said said = wisp("validate " + model + " " + plain() + " " + flag);
+      EXPECT_EQ(said.status, 2) << flag;
+      EXPECT_THAT(said.err, HasSubstr("is for models of outlines, which this model is not")) << flag;
+    }
+  }
+  EXPECT_THAT(wisp("validate " + model() + " " + plain() + " --clip c.mp4").err, HasSubstr("--clip draws nothing"));
+  EXPECT_THAT(wisp("validate " + models + "flame.wisp " + plain() + " --frames 1:100").err,
+              HasSubstr("--frames is of a clip"));
+}
+
 TEST_F(Tables, PredictWritesPredictionsAndTheirIntervals) {
   const std::string m = model();
   ASSERT_EQ(wisp("predict " + m + " " + plain() + " -o " + at("one.csv")).status, 0);
@@ -300,19 +328,23 @@ TEST_F(Tables, RunGoesAlongAPlainTable) {
 
 // An amplifier settles: the light of the trace is right from its ninth sample on.
 TEST_F(Tables, ATracesStartUpIsLeftOutAndSaid) {
-  std::ofstream out(at("trace.csv"));
-  out << "light\n";
-  for (int t = 0; t < 1000; ++t) {
-    const double settled = t < 8 ? 0.05 + 0.1 * t : 1;
-    out << settled * (1 + 0.05 * std::sin(0.9 * t)) << '\n';
+  for (const bool gap : {false, true}) {
+    std::ofstream out(at("trace.csv"));
+    out << "light,volts\n";
+    for (int t = 0; t < 1000; ++t) {
+      const double settled = t < 8 ? 0.05 + 0.1 * t : 1;
+      if (!gap || t != 500) out << settled * (1 + 0.05 * std::sin(0.9 * t));
+      out << ",1\n";
+    }
+    out.close();
+    const Said said =
+        wisp("capture brightness " + at("trace.csv") + " --channel light --rate 100 -o " + at("light.csv"));
+    EXPECT_EQ(said.status, 0) << said.err;
+    EXPECT_THAT(said.err, HasSubstr("left out its first 8 samples")) << gap;
+    const std::vector<double> light = samples(recording("light.csv"), "brightness");
+    EXPECT_TRUE(std::isnan(light[7])) << gap;
+    EXPECT_NEAR(light[8], 1, 0.06) << gap;
   }
-  out.close();
-  const Said said = wisp("capture brightness " + at("trace.csv") + " --channel light --rate 100 -o " + at("light.csv"));
-  EXPECT_EQ(said.status, 0) << said.err;
-  EXPECT_THAT(said.err, HasSubstr("left out its first 8 samples"));
-  const std::vector<double> light = samples(recording("light.csv"), "brightness");
-  EXPECT_TRUE(std::isnan(light[7]));
-  EXPECT_NEAR(light[8], 1, 0.06);
 }
 
 }  // namespace

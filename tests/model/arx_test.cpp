@@ -53,7 +53,7 @@ TEST(ArxModel, CoupledOutputsWithMorePastThanAComputerHoldsAreRefused) {
   for (int i = 0; i < 64; ++i) model.orders.na(i, 0) = 1;
   model.orders.na(0, 0) = 4096;
   EXPECT_EQ(check(model).error().message,
-            "64 coupled outputs are computed from 262144 past values, expected at most 4096");
+            "64 coupled outputs are computed from 262144 past values, expected at most 1024");
 }
 
 TEST(ArxModel, CoefficientsAreFoundByOutputAndInput) {

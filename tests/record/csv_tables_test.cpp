@@ -64,6 +64,13 @@ TEST(CsvTable, ARowOfUnitsIsNoRowOfNumbers) {
   EXPECT_THAT(complaint("u,y\nvolts,amps\nmore,3\n1,2\n"), HasSubstr("row 3: found \"more\""));
 }
 
+TEST(CsvTable, AFirstRowOfADateAndMissingSamplesStatesNoUnits) {
+  const auto recording = parse("Datum;u;y\n31.01.2024 13:05:00;NA;NA\n31.01.2024 13:05:01;1,5;4\n");
+  ASSERT_TRUE(recording) << recording.error().message;
+  EXPECT_THAT(recording->channels[0].samples, ElementsAre(testing::IsNan(), 1.5));
+  EXPECT_EQ(recording->channels[0].unit, "");
+}
+
 TEST(CsvTable, WithoutAHeaderTheColumnsAreNamed) {
   const CsvOptions named{.rate_hz = 1, .inputs = {"u"}, .outputs = {"y"}, .columns = {"u", "y"}};
   expect_samples("1 4\n2.5 5\n-3e-4 6\n", named);
@@ -98,6 +105,13 @@ TEST(CsvTable, WhatIsMissingIsSaidInManyWays) {
   for (std::size_t row = 0; row < 6; ++row) EXPECT_TRUE(std::isnan(recording->channels[0].samples[row])) << row;
   EXPECT_EQ(recording->channels[0].samples[6], 7);
   EXPECT_THAT(complaint("u,y\n1,2\n#DIV/0!,3\n"), HasSubstr("row 3: found \"#DIV/0!\", column 1, expected a number"));
+}
+
+TEST(CsvTable, ARowOfTabsAloneIsARowOfMissingSamples) {
+  const auto recording = parse("u\ty\n1\t4\n\t\n3\t6\n\n");
+  ASSERT_TRUE(recording) << recording.error().message;
+  EXPECT_THAT(recording->channels[0].samples, ElementsAre(1, testing::IsNan(), 3));
+  EXPECT_THAT(recording->channels[1].samples, ElementsAre(4, testing::IsNan(), 6));
 }
 
 TEST(CsvTable, QuotedCellsHoldSeparatorsAndQuotes) {
@@ -199,6 +213,11 @@ TEST(CsvTable, ADateBeyondTheCalendarIsNoTime) {
 TEST(CsvTable, AJumpOfTheClockByYearsIsNamed) {
   EXPECT_THAT(complaint("t,u,y\n0.0,1,2\n0.1,2,3\n0.2,2,3\n1.7e9,1,2\n1700000000.1,1,2\n1700000000.2,1,2\n",
                         {.inputs = {"u"}, .outputs = {"y"}}),
+              HasSubstr("time has gaps of 1000 times as many rows as there are"));
+}
+
+TEST(CsvTable, AnInfiniteTimeIsNamed) {
+  EXPECT_THAT(complaint("t,u,y\n0,1,2\n0.5,2,3\ninf,3,4\n", {.inputs = {"u"}, .outputs = {"y"}}),
               HasSubstr("time has gaps of 1000 times as many rows as there are"));
 }
 

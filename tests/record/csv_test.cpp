@@ -155,9 +155,16 @@ TEST(Csv, DatesAndTimesOfDayAreInSecondsWhateverTheColumnsNameSays) {
   EXPECT_DOUBLE_EQ(rate_by_time("Time (h),u,y\n08:00:00,1,2\n08:00:05,2,3\n"), 0.2);
 }
 
+TEST(Csv, ATimeOfDayWithAFractionMayLackItsHour) {
+  EXPECT_DOUBLE_EQ(rate_by_time("time,u,y\n05:00.9,1,2\n05:01.0,2,3\n05:01.1,3,4\n"), 10);
+  EXPECT_DOUBLE_EQ(rate_by_time("time;u;y\n05:00,9;1;2\n05:01,0;2;3\n05:01,1;3;4\n"), 10);
+  EXPECT_DOUBLE_EQ(rate_by_time("date;u;y\n31.01.2024 13:05:00,5;1;2\n31.01.2024 13:05:01,0;2;3\n"), 2);
+}
+
 TEST(Csv, BesideADateThatStaysTheSameATimeOfDayGivesTheRate) {
   EXPECT_DOUBLE_EQ(rate_by_time("date,time,u,y\n2024-01-31,13:05:00,1,2\n2024-01-31,13:05:05,2,3\n"), 0.2);
   EXPECT_DOUBLE_EQ(rate_by_time("date,time,u,y\n2024-01-31,00:00,1,2\n2024-02-01,00:00,2,3\n"), 1 / 86400.0);
+  EXPECT_DOUBLE_EQ(rate_by_time("date,time,u,y\n-,-,V,K\n2024-01-31,13:05:00,1,2\n2024-01-31,13:05:05,2,3\n"), 0.2);
 }
 
 TEST(Csv, AColumnOfTimeBeginsAnewWithEveryEpisode) {
@@ -189,15 +196,32 @@ TEST(Csv, UnevenTimeIsResampledAndAGapIsMissing) {
 }
 
 TEST(Csv, ResamplingKeepsASampleBesideAMissingOne) {
-  // The fourth new row is at 3 * 0.1 s, in double precision a little above 0.3 s.
+  // The fourth new row is at 3 * 0.1 s, in double precision a little above 0.3 s; 0.6 / 0.1 is a little below 6.
   const auto even = parse("time,y\n0,1\n0.1,\n0.2,3\n0.3,4\n0.4,\n0.53,6\n0.6,7\n", {.outputs = {"y"}});
   ASSERT_TRUE(even) << even.error().message;
   const std::vector<double>& samples = even->channels[0].samples;
-  ASSERT_GE(samples.size(), 4u);
+  ASSERT_EQ(samples.size(), 7u);
   EXPECT_EQ(samples[0], 1);
   EXPECT_TRUE(std::isnan(samples[1]));
   EXPECT_EQ(samples[2], 3);
   EXPECT_EQ(samples[3], 4);
+  EXPECT_EQ(samples[6], 7);
+}
+
+TEST(Csv, ResamplingMovesNoSampleThatIsOnTheGrid) {
+  // In double precision 2.3 + 3 * 0.1 is below 2.6, and 2.3 + 8 * 0.1 below 3.1.
+  std::string table = "time,u,y\n2.3,0,0\n2.4,0,1\n2.6,0,3\n2.7,0,4\n2.8,0,5\n2.9,0,6\n3.0,0,7\n3.1,1,8\n3.2,1,9\n";
+  const auto even = parse(table + "3.3,1,10\n", {.inputs = {"u"}, .outputs = {"y"}});
+  ASSERT_TRUE(even) << even.error().message;
+  EXPECT_THAT(even->channels[0].samples, ElementsAre(0, 0, testing::IsNan(), 0, 0, 0, 0, 0, 1, 1, 1));
+  EXPECT_THAT(even->channels[1].samples, ElementsAre(0, 1, testing::IsNan(), 3, 4, 5, 6, 7, 8, 9, 10));
+}
+
+TEST(Csv, ATableThatLacksARowKeepsItsRoundRate) {
+  const std::string table = "time,u\n0.0000,1\n0.0167,2\n0.0333,3\n0.0500,4\n0.0667,5\n0.1000,6\n0.1167,7\n";
+  const auto even = parse(table, {.inputs = {"u"}});
+  ASSERT_TRUE(even) << even.error().message;
+  EXPECT_DOUBLE_EQ(even->rate_hz, 60);
 }
 
 TEST(Csv, AnUnevenClockTakenAsMillisecondsIsSaidToBeBoth) {
@@ -293,6 +317,13 @@ TEST(Csv, ColumnsThatCannotBeUnderstoodAreNamed) {
   EXPECT_THAT(complaint("# wisp-recording 9\n# rate_hz 1\nu:a\n1\n"), HasSubstr("version"));
   EXPECT_THAT(complaint(kHead + "y:a,flag:x\n1,2\n"), HasSubstr("expected a flag, 0 or 1"));
   EXPECT_THAT(complaint(kHead + "episode,y:a\n1.5,2\n"), HasSubstr("whole number"));
+}
+
+TEST(Csv, ASpreadsheetMayEndCommentLinesInCommas) {
+  const auto recording = parse("# wisp-recording 1,,\n# rate_hz 30,,\n# usable no,,\nepisode,u:a,y:b\n0,1,2\n0,3,4\n");
+  ASSERT_TRUE(recording) << recording.error().message;
+  EXPECT_EQ(recording->rate_hz, 30);
+  EXPECT_EQ(find_attribute(*recording, "usable"), "no");
 }
 
 TEST(Csv, BinaryRubbishAndEndlessLinesAreRefusedInBoundedMemory) {

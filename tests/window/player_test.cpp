@@ -235,6 +235,58 @@ TEST(Cake, IsBlownOutFromTheSideThatTheWindComesFrom) {
   EXPECT_EQ(player.figures().went_out, 7);
 }
 
+// Seven candles that are out, turned by a quarter: the first one is then behind the last one.
+Player turned_cake() {
+  Player player = player_of("flame.wisp", SceneKind::kCake);
+  press(player, Key::kSpace);
+  play(player, 2);
+  player.handle(PointerTurned{{0.75F, 0.05F}, true});
+  player.handle(PointerMoved{{0.25F, 0.05F}});
+  player.handle(PointerTurned{{0.25F, 0.05F}, false});
+  play(player, 0.1);
+  return player;
+}
+
+TEST(Cake, IsTurnedByADragThatLightsNoCandle) {
+  const Player player = turned_cake();
+  EXPECT_EQ(player.figures().went_out, 7);
+  EXPECT_EQ(player.figures().relit, 0);
+}
+
+TEST(Cake, AClickLightsTheCandleOfThatFlameAmongCandlesBehindEachOther) {
+  Player player = turned_cake();
+  for (const Point at : {Point{0.278F, 0.617F}, Point{0.278F, 0.45F}}) {
+    EXPECT_THAT(player.state(), HasSubstr("tip 0.000000"));  // the first candle is out
+    player.handle(PointerTurned{at, true});
+    player.handle(PointerTurned{at, false});
+    play(player, 0.2);
+  }
+  EXPECT_THAT(player.state(), HasSubstr("burning 2 "));
+  EXPECT_EQ(player.state().find("tip 0.000000"), std::string::npos);
+}
+
+TEST(Cake, AClickOnABurningCandleLightsTheNearestThatIsOut) {
+  Player player = turned_cake();
+  for (int k = 0; k < 3; ++k) {
+    player.handle(PointerTurned{{0.278F, 0.617F}, true});
+    player.handle(PointerTurned{{0.278F, 0.617F}, false});
+    play(player, 0.2);
+  }
+  EXPECT_EQ(player.figures().relit, 3);
+}
+
+TEST(CandleInTheWindow, IsNotBlownAtByARestingPointerWhenThePictureChangesItsSize) {
+  Player player = player_of("flame-4.wisp"), still = player_of("flame-4.wisp");
+  player.handle(PointerMoved{{0.5F, 0.6F}});
+  for (Player* one : {&player, &still}) {
+    play(*one, 0.5);
+    one->resize(640, 200);
+  }
+  player.handle(PointerMoved{{0.5F, 0.6F}});
+  for (Player* one : {&player, &still}) play(*one, 0.1);
+  EXPECT_EQ(player.state(), still.state());
+}
+
 TEST(LeavesInTheWindow, LandAndAreKickedUp) {
   Player player = player_of("leaf.wisp");
   const auto resting = [&] {
@@ -264,6 +316,30 @@ TEST(LeavesInTheWindow, AreMoreOrFewer) {
   play(player, 0.1);
 }
 
+// The curves of a first-order lag whose input steps from 0 to `unit`.
+Image plotted(double unit) {
+  Model model;
+  model.name = "lag";
+  model.rate_hz = 60;
+  model.inputs = {{"u", "", -unit, unit}};
+  model.outputs = {{"y", "", -unit, unit}};
+  ArxModel arx;
+  arx.orders = {OrderMatrix(1, 1, 1), OrderMatrix(1, 1, 1), OrderMatrix(1, 1)};
+  arx.theta = {{-0.75, 0.25}};
+  arx.constant = arx.output_mean = arx.input_mean = arx.noise.sd = {0};
+  model.dynamics = arx;
+  auto scene = PlotScene::create(model, 1);
+  if (!scene) throw std::runtime_error(scene.error().message);
+  scene->resize(320, 200);
+  scene->blow(1);
+  for (int k = 0; k < 60; ++k) scene->advance(kFrame);
+  Image image;
+  scene->draw(image);
+  return image;
+}
+
+TEST(PlotsInTheWindow, OfTinyUnitsLookLikeThoseOfLargeOnes) { EXPECT_EQ(plotted(0x1p-34), plotted(1)); }
+
 TEST(DroppedFiles, ThatAreNoModelsAreNamedAndTheSceneGoesOn) {
   Player player = player_of("flame-4.wisp");
   std::ofstream(scratch("empty.wisp")).close();
@@ -278,6 +354,15 @@ TEST(DroppedFiles, ThatAreNoModelsAreNamedAndTheSceneGoesOn) {
     EXPECT_GT(look(player.draw()).bright, 200) << name;
   }
   std::filesystem::remove(scratch("large.wisp"));
+}
+
+TEST(DroppedFiles, ThatNoBankPlaysAreNamedApartFromTheReason) {
+  Player player = player_of("flame-4.wisp");
+  Model round = *in_the_round(*read_model(kModels + "flame.wisp"));
+  std::get<ArxModel>(round.dynamics).input_mean[7] = 0.1;  // a mean of a vector
+  ASSERT_TRUE(write_model(scratch("vector.wisp"), round));
+  player.handle(FileDropped{scratch("vector.wisp").string()});
+  EXPECT_THAT(player.said(), HasSubstr("cannot play vector.wisp: input "));
 }
 
 TEST(DroppedFiles, ThatAreModelsArePlayed) {

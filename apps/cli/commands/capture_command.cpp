@@ -101,14 +101,24 @@ Result<void> run_capture(const Arguments& arguments, Terminal& terminal) {
   return {};
 }
 
+// Returns the mean of the samples that are not missing; NaN if all are.
+double mean_of(std::span<const double> samples) {
+  double sum = 0, rows = 0;
+  for (const double value : samples) {
+    if (std::isnan(value)) continue;
+    sum += value;
+    rows += 1;
+  }
+  return sum / rows;
+}
+
 // Returns the number of samples during which a lamp or an amplifier starts up: the leading samples below all samples
 // after the first second. 0 if the first sample is at least half of the mean, or if the trace lasts at most a second.
 std::size_t start_up_samples(std::span<const double> light, double rate_hz) {
   const auto second = std::min(light.size(), static_cast<std::size_t>(std::max(1.0, rate_hz)));
-  if (second == light.size() ||
-      !(light.front() < 0.5 * std::accumulate(light.begin(), light.end(), 0.0) / static_cast<double>(light.size())))
-    return 0;
-  const double least = *std::min_element(light.begin() + static_cast<std::ptrdiff_t>(second), light.end());
+  if (second == light.size() || !(light.front() < 0.5 * mean_of(light))) return 0;
+  const double least = std::accumulate(light.begin() + static_cast<std::ptrdiff_t>(second), light.end(), HUGE_VAL,
+                                       [](double a, double b) { return std::fmin(a, b); });  // passes over NaN
   return static_cast<std::size_t>(std::find_if(light.begin(), light.begin() + static_cast<std::ptrdiff_t>(second),
                                                [&](double x) { return x >= least; }) -
                                   light.begin());
@@ -118,11 +128,14 @@ std::size_t start_up_samples(std::span<const double> light, double rate_hz) {
 Result<Recording> brightness_of(const Arguments& arguments, Terminal& terminal) {
   const std::string& path = arguments.positional();
   if (!is_table(path)) {
-    if (auto ok = refuse(arguments, {"channel"}, "is of a table, and " + path + " is a clip"); !ok) return ok.error();
+    if (auto ok = refuse(arguments, {"channel", "columns"}, "is of a table, and " + path + " is a clip"); !ok)
+      return ok.error();
     Arguments of_clip = arguments;
     of_clip.set("channel", "luma");
-    const auto options = capture_options(of_clip);
-    if (!options) return options.error();
+    auto options = capture_options(of_clip);
+    const auto stated = csv_options(arguments);  // --rate or --dt
+    if (!options || !stated) return options ? stated.error() : options.error();
+    options->rate_hz = stated->rate_hz;
     return capture_brightness(path, *options, terminal.progress());
   }
   if (auto ok = refuse(arguments, {"region", "frames"}, of_clips(path)); !ok) return ok.error();
@@ -136,14 +149,9 @@ Result<Recording> brightness_of(const Arguments& arguments, Terminal& terminal) 
     std::fill_n(light.samples.begin(), count, std::nan(""));
     terminal.warn(path + ": left out its first " + std::to_string(count) + " samples, in which the light starts up");
   }
-  double sum = 0, rows = 0;
-  for (const double value : light.samples) {
-    if (std::isnan(value)) continue;
-    sum += value;
-    rows += 1;
-  }
-  if (!(sum > 0)) return Error{path + ": its light is not above 0 on average; is the column right, and dark at 0?"};
-  for (double& value : light.samples) value /= sum / rows;
+  const double mean = mean_of(light.samples);
+  if (!(mean > 0)) return Error{path + ": its light is not above 0 on average; is the column right, and dark at 0?"};
+  for (double& value : light.samples) value /= mean;
   light.name = "brightness";
   light.unit.clear();
   recording->channels = {std::move(light)};

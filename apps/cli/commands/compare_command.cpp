@@ -6,6 +6,7 @@
 #include "commands/commands.hpp"
 #include "flags/arx_flags.hpp"
 #include "flags/recordings.hpp"
+#include "reports/arx_validation.hpp"
 #include "terminal.hpp"
 #include "wisp/draw/plot.hpp"
 #include "wisp/learn/validate.hpp"
@@ -31,7 +32,7 @@ Result<std::vector<NamedModel>> read_models(const std::vector<std::string>& path
 
 // Returns options for reading plain tables: the inputs and outputs of all models, and the rate of the first model.
 CsvOptions channels_of(const std::vector<NamedModel>& models) {
-  CsvOptions all{.rate_hz = models.front().model.rate_hz};
+  CsvOptions all{.rate_hz = usual_rate(models.front().model)};
   const auto add = [&](const auto& channels, std::vector<std::string>& names) {
     for (const auto& channel : channels) {
       if (std::find(names.begin(), names.end(), channel.name) == names.end()) names.push_back(channel.name);

@@ -109,10 +109,12 @@ Result<ArxPart> part_of_tables(const ArxRecipe& recipe, const Arguments& argumen
 }
 
 // Merges the named part files. Errors: a file that cannot be read, is no part, is damaged, or is of another model than
-// the first (each with the file's name); a number of parts other than --expect; a flag that needs rows.
+// the first (each with the file's name); a number of parts other than --expect; a flag that needs rows, or contradicts
+// the parts.
 Result<ArxPart> merged_parts(const Arguments& arguments) {
-  const auto rowless = refuse(arguments, {"search", "range"}, "does not go with --merge: parts hold no rows");
-  if (!rowless) return rowless.error();
+  const auto settled = refuse(arguments, {"search", "range", "inputs", "outputs", "na", "nb", "nk", "coupling"},
+                              "does not go with --merge: parts hold no rows, but channels and orders");
+  if (!settled) return settled.error();
   const auto& paths = arguments.positionals();
   auto whole = read_part(paths.front());
   if (!whole) return whole;
@@ -133,6 +135,8 @@ Result<ArxPart> merged_parts(const Arguments& arguments) {
 // Writes the statistics of the recordings (or, with --merge, of the parts) to the file of --partial, atomically.
 // Errors: as part_of_tables and merged_parts, and where the file cannot be written.
 Result<void> write_part(const ArxRecipe& recipe, const Arguments& arguments, Terminal& terminal) {
+  auto no_model = refuse(arguments, {"output", "figures"}, "is of a model, and --partial writes a part instead");
+  if (!no_model) return no_model;
   const auto part = arguments.on("merge") ? merged_parts(arguments) : part_of_tables(recipe, arguments, terminal);
   if (!part) return part.error();
   const std::string& path = arguments.text("partial");

@@ -6,7 +6,6 @@
 
 #include "commands/commands.hpp"
 #include "films/leaf_film.hpp"
-#include "reports/learned_model.hpp"
 #include "terminal.hpp"
 #include "wisp/learn/chain_recipe.hpp"
 #include "wisp/record/csv.hpp"
@@ -132,8 +131,6 @@ Result<void> run_simulate_leaf(const Arguments& arguments, Terminal& terminal) {
   const std::filesystem::path path = arguments.text("output");
   if (path.extension() != ".csv")
     return Error{path.string() + ": cannot be written, expected a name that ends in .csv"};
-  // Checks the names before the simulation, which takes long.
-  if (auto good = check_writable(path.string()); !good) return good;
   if (arguments.has("video"))
     if (auto good = check_film_name(arguments.text("video")); !good) return good;
   const bool pairs = arguments.on("pairs");

@@ -32,6 +32,7 @@ Result<ValidationSubject> subject_of(const std::string& path, const Model& model
   ValidationSubject subject;
   if (is_table(path)) {
     auto ok = refuse(arguments, {"channel", "flame", "dark", "region", "wind-measure"}, of_clips(path));
+    if (ok && !arguments.has("clip")) ok = refuse(arguments, {"frames"}, of_clips(path) + ", or give --range");
     if (!ok) return ok.error();
     auto recording = read_table(path, arguments);
     if (!recording) return recording.error();
@@ -227,6 +228,9 @@ Result<void> run_validate(const Arguments& arguments, Terminal& terminal) {
   if (!model) return model.error();
   const auto steps = steps_in(arguments);
   if (!steps) return steps.error();
+  auto of_films = refuse(arguments, {"frames", "channel", "flame", "dark", "region", "wind-measure", "own-gain"},
+                         "is for models of outlines, which this model is not; rows are chosen by --range");
+  if (!std::holds_alternative<OutlineView>(model->view) && !of_films) return of_films;
   if (std::holds_alternative<ChainModel>(model->dynamics)) return validate_chain(*model, arguments, terminal);
   if (!std::holds_alternative<OutlineView>(model->view)) return validate_plain(*model, *steps, arguments, terminal);
   auto filmed = refuse(arguments, {"film"}, "is for segment chains of poses; this model is of an outline");

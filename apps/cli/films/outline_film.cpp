@@ -77,16 +77,22 @@ Result<void> overlay_on_black(VideoWriter& film, int width, int height, const La
 Result<void> overlay_on_clip(VideoWriter& film, const ClipFrames& clip, const OverlayContent& content, double rate_hz,
                              const Layout& layout, Terminal& terminal) {
   const std::size_t count = content.captured.size();
+  std::size_t reached = 0;
   auto drawn =
       for_each_row(clip, count - 1, [&](std::size_t row, const std::function<Image()>& picture) -> Result<void> {
         Image image = picture();
         if (layout.times > 1) image = resized(image, image.width() * layout.times, image.height() * layout.times);
         draw_row(image, content, row, layout);
         draw_label(image, seconds_text(static_cast<double>(row) / rate_hz));
-        terminal.progress("drawing the overlay", static_cast<double>(row + 1) / static_cast<double>(count));
+        reached = row + 1;
+        terminal.progress("drawing the overlay", static_cast<double>(reached) / static_cast<double>(count));
         return film.write(image);
       });
   if (!drawn) return drawn;
+  const std::string ends = clip.path.string() + ": ends after " + std::to_string(reached) + " of the recording's " +
+                           std::to_string(count) + " rows: is it the clip that the recording was captured from?";
+  if (reached == 0) return Error{ends};
+  if (reached < count) terminal.warn(ends);
   return film.finish();
 }
 

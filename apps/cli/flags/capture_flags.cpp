@@ -73,6 +73,8 @@ Result<ClipCapture> capture_options(const Arguments& arguments) {
     options.frames = FrameRange{static_cast<std::int64_t>(frames.first), static_cast<std::int64_t>(frames.last)};
   }
   if (arguments.has("rate")) options.rate_hz = arguments.number("rate");
+  if (arguments.has("rate") && !(options.rate_hz > 0))
+    return Error{"--rate: found \"" + arguments.text("rate") + "\", expected frames a second above 0"};
   if (arguments.has("wind-measure")) options.wind = wind_measure(arguments);
   return options;
 }

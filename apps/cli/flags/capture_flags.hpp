@@ -14,7 +14,7 @@ namespace wisp::cli {
 std::vector<Flag> capture_flags(const std::string& flame);
 
 /// Returns the capture options from these flags.
-/// Errors: a --region of another form or without area.
+/// Errors: a --region of another form or without area; a --rate not above 0.
 Result<ClipCapture> capture_options(const Arguments& arguments);
 
 /// Returns the reason why a flag of clips is refused where a table is read.

@@ -39,9 +39,11 @@ Result<void> find_renamed(const Recording& recording, const std::vector<std::str
 
 }  // namespace
 
+double usual_rate(const Model& model) { return model.training.preparation.resample_hz > 0 ? 0 : model.rate_hz; }
+
 Result<Recording> table_for(const Model& model, const std::string& path, const Arguments& arguments) {
   if (!is_table(path)) return Error{path + ": is not a table (.csv), which this model is judged on"};
-  CsvOptions channels{.rate_hz = model.rate_hz};
+  CsvOptions channels{.rate_hz = usual_rate(model)};
   for (const Input& input : model.inputs) channels.inputs.push_back(input.name);
   for (const Output& output : model.outputs) channels.outputs.push_back(output.name);
   auto whole = read_table(path, arguments, channels);
@@ -57,7 +59,7 @@ Result<Recording> table_for(const Model& model, const std::string& path, const A
 Result<void> validate_plain(const Model& model, const std::vector<int>& steps, const Arguments& arguments,
                             Terminal& terminal) {
   const bool switched = std::holds_alternative<SwitchedArxModel>(model.dynamics);
-  for (const char* flag : {"overlay", "film-strip", "film", "figures"}) {
+  for (const char* flag : {"overlay", "film-strip", "film", "clip", "figures"}) {
     if (!arguments.has(flag) || (!switched && std::string_view(flag) == "figures")) continue;
     return Error{arguments.positional() + ": is " + (switched ? "a switched model" : "not a model of an outline") +
                  ", for which --" + flag + " draws nothing"};

@@ -27,8 +27,12 @@ Result<void> write_arx_figures(const std::filesystem::path& folder, const Model&
 Result<void> validate_plain(const Model& model, const std::vector<int>& steps, const Arguments& arguments,
                             Terminal& terminal);
 
+/// Returns the rate that a table without one takes, Hz: the model's. 0, none, if the model resamples its recordings:
+/// the rate before is not in the model.
+double usual_rate(const Model& model);
+
 /// Reads the recording on which a model with plain outputs is validated, within --range. --inputs and --outputs, if
-/// given, name the columns of the model's channels, in the model's order; a table without a rate takes the model's.
+/// given, name the columns of the model's channels, in the model's order; a table without a rate takes usual_rate().
 /// Errors: as read_table() and in_range(); a number of names other than the model's number of channels.
 Result<Recording> table_for(const Model& model, const std::string& path, const Arguments& arguments);
 

@@ -68,12 +68,7 @@ export class App {
   /** Seconds of play since the breath of arrival began; negative before it begins. */
   private duckFrom = Infinity;
 
-  constructor(
-    readonly wisp: Library,
-    readonly settings: Settings,
-    private readonly own: Readonly<Settings>,
-    readonly overlay: boolean,
-  ) {
+  constructor(readonly wisp: Library, readonly settings: Settings, private readonly own: Readonly<Settings>, readonly overlay: boolean) {
     this.stage = new Stage(byId('stage', HTMLCanvasElement), {
       breath: (seconds) => this.breath.update(seconds, this.stage.frames) + (this.parts?.senses.air.right ?? 0),
       air: () => this.air(),
@@ -113,7 +108,8 @@ export class App {
     byId('open-help', HTMLButtonElement).addEventListener('click', () => this.showHelp());
     this.drawerButton.addEventListener('click', () => this.toggleDrawer());
     watchDrops(byId('drop', HTMLElement), (dropped) => this.take(dropped));
-    window.addEventListener('hashchange', () => this.change(settingsFromLink(location.hash, this.settings)));
+    // Links leave out what is empty, so nothing of the link before is kept there.
+    window.addEventListener('hashchange', () => this.change(settingsFromLink(location.hash, { ...this.settings, name: '', from: '', wish: '', age: 0, model: '' })));
     const scene = (name: Settings['scene']) => () => this.change({ scene: name });
     listenToKeys(
       this.breath.keys,

@@ -29,12 +29,7 @@ export class Player {
   /** number of the latest opening; earlier ones that still load are abandoned */
   private opening = 0;
 
-  constructor(
-    private readonly wisp: Library,
-    private readonly stage: Stage,
-    readonly settings: Settings,
-    private readonly changed: (playing: Playing) => void,
-  ) {}
+  constructor(private readonly wisp: Library, private readonly stage: Stage, readonly settings: Settings, private readonly changed: (playing: Playing) => void) {}
 
   /** Plays the settings' model: that of the link, or the scene's shipped one. Throws on failure. */
   async playChosen(): Promise<void> {

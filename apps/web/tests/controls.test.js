@@ -279,8 +279,10 @@ describe('the page', { skip }, () => {
 
   it('is as its link says', async () => {
     assert.equal((await page.evaluate(() => window.wisp.burning)).of, 3);
+    await page.evaluate(() => (location.hash = '#scene=candle&seed=4&candles=2&from=Ben'));
+    await until(page, 'two candles', () => window.wisp.burning.of === 2 && document.getElementById('greeting').textContent === 'from Ben');
     await page.evaluate(() => (location.hash = '#scene=candle&seed=4&candles=2'));
-    await until(page, 'two candles', () => window.wisp.burning.of === 2);
+    await until(page, 'no sender of a link before', () => document.getElementById('greeting').textContent === '');
   });
 
   it('leaves what a link says out of range as it is', async () => {

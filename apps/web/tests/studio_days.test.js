@@ -55,10 +55,14 @@ describe('a film out of the ordinary', { skip }, () => {
     await says(page, '#notices', 'diary.txt has no column of numbers');
   });
 
-  it('in WebM with VP9 is followed as any other', async () => {
+  it('in WebM with VP9 is followed as any other, and a press without a drag does not begin anew', async () => {
     await drop(page, 'web.webm', readFileSync(webFilm(film(), folder)));
     await looked(page);
     assert.match(await page.textContent(panel), /The flame is found.*in (59|60|61) of (59|60|61) pictures/s);
+    for (const key of [...Array(20).fill('Shift+ArrowRight'), ...Array(20).fill('Shift+ArrowDown'), 'Enter']) await page.press('.viewer .over', key);
+    await looked(page);
+    await page.click('.viewer .over');
+    assert.notEqual(await page.$('[data-act=learn]'), null);
     await page.click('[data-act=leave-out]');
   });
 
@@ -107,14 +111,14 @@ describe('a film out of the ordinary', { skip }, () => {
     await anew();
   });
 
-  it('or a table of a logger: semicolons, commas in its numbers, milliseconds, a unit, a role, a name that tells nothing', async () => {
+  it('or a table of a logger: semicolons, commas in its numbers, milliseconds, a unit, a role, a name in quotes that tells nothing', async () => {
     const rows = Array.from({ length: 40 }, (_, k) => `${k * 50};${k % 7 < 3 ? '1,5' : '0,0'};${(20 + Math.sin(k)).toFixed(3).replace('.', ',')}`);
-    await drop(page, 'logger.csv', Buffer.from(`time_ms;pwm[%];y:temp\r\n${rows.join('\r\n')}\r\n`));
+    await drop(page, 'logger.csv', Buffer.from(`time_ms;"pwm; duty[%]";y:temp\r\n${rows.join('\r\n')}\r\n`));
     await says(page, panel, 'What goes in, what comes out');
     await says(page, panel, '40 rows, 20 a second.*has only 40 rows');
     assert.equal(await page.inputValue('#table-rate'), '20');
     const pressed = (column) => page.getAttribute(`[data-column="${column}"]`, 'aria-pressed');
-    assert.deepEqual(await Promise.all(['time_ms ignored', 'pwm[%] input', 'y:temp output'].map(pressed)), ['true', 'true', 'true']);
+    assert.deepEqual(await Promise.all(['time_ms ignored', 'pwm; duty[%] input', 'y:temp output'].map(pressed)), ['true', 'true', 'true']);
     assert.equal(await page.locator('.plots .curves').count(), 2, 'time itself is not plotted');
     await page.getByRole('button', { name: 'Back' }).click();
   });

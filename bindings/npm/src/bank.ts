@@ -51,10 +51,7 @@ class Room {
   private pointerIfAny = 0;
   private view = new Float32Array(0);
 
-  constructor(
-    private readonly native: Native,
-    private readonly most: number,
-  ) {}
+  constructor(private readonly native: Native, private readonly most: number) {}
 
   get pointer(): number {
     if (this.pointerIfAny === 0) this.pointerIfAny = this.native.allocate(this.most * 4);
@@ -267,7 +264,8 @@ export class Bank {
     const { native, scratch } = this;
     this.living();
     native.data.setUint32(scratch, at.body.size, true);
-    at.putAt(native, scratch, at.body, { orientation: [1, 0, 0, 0], velocity: [0, 0, 0], spin: [0, 0, 0], ...body });
+    const { position, orientation = [1, 0, 0, 0], velocity = [0, 0, 0], spin = [0, 0, 0] } = body;
+    at.putAt(native, scratch, at.body, { position, orientation, velocity, spin });
     this.call('wisp_bank_place', instance, scratch);
   }
 

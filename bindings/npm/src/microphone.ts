@@ -17,11 +17,7 @@ export type Wind = Extract<WindMessage, { type: 'wind' }>;
 export type MicrophoneTrouble = 'unsupported' | 'denied' | 'none' | 'busy' | 'lost' | 'failed';
 
 export class MicrophoneError extends Error {
-  constructor(
-    readonly trouble: MicrophoneTrouble,
-    message: string,
-    options?: ErrorOptions,
-  ) {
+  constructor(readonly trouble: MicrophoneTrouble, message: string, options?: ErrorOptions) {
     super(message, options);
     this.name = 'MicrophoneError';
   }
@@ -123,11 +119,12 @@ class OpenMicrophone {
   private node!: AudioWorkletNode;
   private source!: MediaStreamAudioSourceNode;
   private track!: MediaStreamTrack;
-  private readonly asked: ((known: WindCalibration) => void)[] = [];
+  private readonly asked: { resolve(known: WindCalibration): void; reject(error: MicrophoneError): void }[] = [];
   private open = true;
   private silentLooks = 0;
   private reopening = false;
-  private readonly looks = setInterval(() => this.look(), LOOK_EVERY);
+  private readonly looks: ReturnType<typeof setInterval>;
+  private known: WindCalibration | undefined; // for a microphone that is opened again
 
   constructor(
     private readonly wisp: Library,
@@ -135,7 +132,9 @@ class OpenMicrophone {
     private context: AudioContext,
     private readonly options: MicrophoneOptions,
   ) {
+    this.known = options.calibration;
     this.attach();
+    this.looks = setInterval(() => this.look(), LOOK_EVERY);
     navigator.mediaDevices.addEventListener('devicechange', this.devicesChanged);
     for (const name of WAKES) document.addEventListener(name, this.wake, { capture: true, passive: true });
   }
@@ -145,7 +144,7 @@ class OpenMicrophone {
     this.track = stream.getAudioTracks()[0]!;
     this.settings = settingsOf(this.track, context);
     const processorOptions: WindProcessorOptions = { module: wisp.module, frameRate: options.frameRate ?? 60 };
-    if (options.calibration) processorOptions.calibration = options.calibration;
+    if (this.known) processorOptions.calibration = this.known;
     this.node = new AudioWorkletNode(context, 'wisp-wind', { numberOfInputs: 1, numberOfOutputs: 0, processorOptions });
     this.node.port.onmessage = (event: MessageEvent<WindMessage>) => this.hear(event.data);
     this.node.onprocessorerror = () => this.lose('failed', 'The wind could not be worked out from the sound.');
@@ -153,6 +152,7 @@ class OpenMicrophone {
     this.source.connect(this.node);
     this.track.addEventListener('ended', this.ended);
     context.addEventListener('statechange', this.wake);
+    for (const _ of this.asked) this.tell({ type: 'tell calibration' }); // the previous worklet did not answer
   }
 
   private detach(): void {
@@ -161,8 +161,7 @@ class OpenMicrophone {
     this.tell({ type: 'stop' });
     this.node.port.onmessage = null;
     this.source.disconnect();
-    for (const track of this.stream.getTracks()) track.stop();
-    if (this.options.context === undefined) void this.context.close();
+    release(this.stream, this.context, this.options);
   }
 
   private readonly wake = (): void => {
@@ -188,11 +187,8 @@ class OpenMicrophone {
     if (this.reopening || this.options.context !== undefined) return;
     this.reopening = true;
     try {
-      const { stream, context } = await openSound(this.options);
-      if (!this.open) {
-        for (const track of stream.getTracks()) track.stop();
-        return void context.close();
-      }
+      const [stream, context] = await openSound(this.options, (...sound) => sound);
+      if (!this.open) return release(stream, context, this.options);
       this.detach();
       [this.stream, this.context] = [stream, context];
       this.attach();
@@ -219,15 +215,17 @@ class OpenMicrophone {
     this.tell({ type: 'calibrate', seconds, ask: windAsks.indexOf(ask) });
   }
 
-  /** Current calibration of microphone and room. */
+  /** Current calibration of microphone and room. Rejects with a MicrophoneError if the microphone is closed. */
   calibration(): Promise<WindCalibration> {
-    return new Promise((resolve) => {
-      this.asked.push(resolve);
+    return new Promise((resolve, reject) => {
+      if (!this.open) return reject(closed());
+      this.asked.push({ resolve, reject });
       this.tell({ type: 'tell calibration' });
     });
   }
 
   reset(): void {
+    this.known = undefined;
     this.tell({ type: 'reset' });
   }
 
@@ -239,6 +237,7 @@ class OpenMicrophone {
     navigator.mediaDevices.removeEventListener('devicechange', this.devicesChanged);
     for (const name of WAKES) document.removeEventListener(name, this.wake, { capture: true });
     this.detach();
+    for (const { reject } of this.asked.splice(0)) reject(closed());
   }
 
   private hear(message: WindMessage): void {
@@ -249,8 +248,9 @@ class OpenMicrophone {
       this.options.onWind?.(message);
       return;
     }
+    this.known = message.known;
     if (message.type === 'calibrated') this.options.onCalibrated?.(message.known, message.heard);
-    else this.asked.shift()?.(message.known);
+    else this.asked.shift()?.resolve(message.known);
   }
 
   private readonly ended = (): void => this.lose('lost', 'The microphone was unplugged or taken away.');
@@ -280,21 +280,29 @@ class OpenMicrophone {
  * start. Throws a MicrophoneError with the reason if none can be opened.
  */
 export async function openMicrophone(wisp: Library, options: MicrophoneOptions = {}): Promise<Microphone> {
-  const { stream, context } = await openSound(options);
-  return new OpenMicrophone(wisp, stream, context, options);
+  return openSound(options, (stream, context) => new OpenMicrophone(wisp, stream, context, options));
 }
 
-async function openSound(options: MicrophoneOptions): Promise<{ stream: MediaStream; context: AudioContext }> {
+const closed = (): MicrophoneError => new MicrophoneError('lost', 'The microphone is closed.');
+
+/** Closes a microphone, and its audio context unless that is the caller's. */
+function release(stream: MediaStream, context: AudioContext | undefined, options: MicrophoneOptions): void {
+  for (const track of stream.getTracks()) track.stop();
+  if (options.context === undefined) void context?.close();
+}
+
+/** Opens a microphone, and returns what `use` makes of it; closes it if that fails. */
+async function openSound<T>(options: MicrophoneOptions, use: (stream: MediaStream, context: AudioContext) => T): Promise<T> {
   const stream = await askForSound(options.deviceId);
-  const context = options.context ?? new AudioContext({ latencyHint: 'interactive' });
+  let { context } = options;
   try {
+    context ??= new AudioContext({ latencyHint: 'interactive' });
     await context.audioWorklet.addModule(options.workletUrl ?? new URL('./worklet.js', import.meta.url));
     // Not awaited, as some browsers keep the promise pending until the next click or key.
     context.resume().catch(() => {});
-    return { stream, context };
+    return use(stream, context);
   } catch (error) {
-    for (const track of stream.getTracks()) track.stop();
-    if (options.context === undefined) void context.close();
+    release(stream, context, options);
     throw refusal(error);
   }
 }

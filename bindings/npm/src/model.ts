@@ -81,10 +81,7 @@ export class Model {
   private pointer: number;
 
   /** @internal */
-  constructor(
-    private readonly native: Native,
-    bytes: Uint8Array | number,
-  ) {
+  constructor(private readonly native: Native, bytes: Uint8Array | number) {
     this.pointer = typeof bytes === 'number' ? bytes : native.allocating(() => Model.read(native, bytes));
     this.name = native.text(native.functions.wisp_model_name!(this.pointer));
     const { inputs, outputs, dynamics, view, ...facts } = this.read(at.modelFacts, 'wisp_model_get_facts');

@@ -18,11 +18,7 @@ export const Status = {
 
 /** An error as one sentence, with its kind (`Status`). */
 export class WispError extends Error {
-  constructor(
-    readonly status: number,
-    message: string,
-    options?: ErrorOptions,
-  ) {
+  constructor(readonly status: number, message: string, options?: ErrorOptions) {
     super(message, options);
     this.name = 'WispError';
   }

@@ -26,10 +26,7 @@ export class WindLevel {
   private readonly counts: number;
 
   /** @internal */
-  constructor(
-    private readonly native: Native,
-    options: WindOptions,
-  ) {
+  constructor(private readonly native: Native, options: WindOptions) {
     this.pointer = native.allocating(() => WindLevel.create(native, options));
     this.samples = native.allocate(samplesAtOnce * 4);
     this.frames = native.allocate(framesAtOnce * at.windFrame.size);

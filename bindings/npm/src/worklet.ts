@@ -44,7 +44,7 @@ declare function registerProcessor(name: string, processor: new (options: AudioW
 
 type Functions = Record<string, (...values: number[]) => number>;
 
-// Blocks have 128 samples today; engines may allow more.
+// Samples taken at once. Blocks have 128 today; engines may allow more.
 const maxSamples = 4096;
 const maxFrames = 16;
 const frameBytes = 40;
@@ -84,6 +84,8 @@ class Ears {
 
   /** Feeds a block of one channel. Calls `each` with the address of every frame that the block completes. */
   feed(block: Float32Array, each: (data: DataView, at: number) => void): void {
+    if (block.length > maxSamples) this.feed(block.subarray(0, -maxSamples), each);
+    block = block.subarray(-maxSamples);
     new Float32Array(this.memory.buffer, this.samples, block.length).set(block);
     for (let taken = 0; taken < block.length; ) {
       const left = block.length - taken;

@@ -86,8 +86,11 @@ describe('in Chromium', { skip }, () => {
       await page.evaluate('delete AudioContext.prototype.resume, AudioContext.prototype.resume = resumes');
       await page.keyboard.press('x');
       await until(page, 'page.slept.at(-1) === false');
+      await page.evaluate(`page.reopen(${JSON.stringify({ ...known, gustRms: 0.25 })})`);
+      assert.ok(Math.abs((await page.evaluate('page.calibration()')).gustRms - 0.25) < 0.05); // kept
       await page.evaluate("stream.getTracks()[0].dispatchEvent(new Event('ended'))");
       assert.equal(await page.evaluate('page.lost'), 'lost');
+      assert.equal(await page.evaluate('page.calibration().catch(({ trouble }) => trouble)'), 'lost');
       assert.equal(await page.evaluate('stream.getTracks()[0].readyState'), 'ended');
       assert.deepEqual(page.errors, []);
     });
@@ -100,5 +103,16 @@ describe('in Chromium', { skip }, () => {
     const bare = await open(browser, 'plain', ['microphone']);
     const missing = await bare.evaluate('page.listen({})');
     assert.equal(missing.trouble, 'none', missing.message);
+  });
+
+  test('a microphone whose sound cannot be used is released', async () => {
+    const page = await open(listening, 'plain', ['microphone']);
+    await page.evaluate(`(() => {
+      const media = navigator.mediaDevices, ask = media.getUserMedia.bind(media);
+      media.getUserMedia = async (wish) => (window.stream = await ask(wish));
+      AudioContext.prototype.createMediaStreamSource = () => { throw new DOMException('another rate', 'NotSupportedError'); };
+    })()`);
+    const refused = await page.evaluate('page.listen({})');
+    assert.deepEqual([refused.trouble, await page.evaluate('stream.getTracks()[0].readyState')], ['failed', 'ended']);
   });
 });

@@ -75,10 +75,23 @@ describe('elements in Chromium', { skip }, () => {
     await until(page, lit('one', 5));
     await page.evaluate(`{ const one = document.getElementById('one'); window.kept = one.scene; one.setAttribute('seed', '4.5'); }`);
     await until(page, `document.getElementById('one').scene !== kept && ${lit('one', 5)}`);
+    await page.evaluate(`(async () => { const { Model } = await import(new URL('node_modules/@wisp/player/dist/model.js', location.href).href);
+      const { free } = Model.prototype; window.freed = 0; Model.prototype.free = function () { freed += 1; free.call(this); };
+      document.getElementById('one').setAttribute('src', 'models/leaf.wisp'); })()`);
+    await until(page, `/is no flame/.test(document.getElementById('one').shadowRoot.querySelector('p').textContent)`);
+    assert.equal(await page.evaluate('freed'), 1); // the model that does not fit
     await page.evaluate(`(() => { const one = document.getElementById('one');
       one.addEventListener('error', () => (window.failed = true)); one.setAttribute('src', 'models/none.wisp'); })()`);
     await until(page, 'window.failed');
     assert.match(await page.evaluate(`document.getElementById('one').shadowRoot.querySelector('p').textContent`), /none.wisp could not be fetched \(404\)/);
+  });
+
+  test('a browser without WebGL 2 is told so, and still when the model is there', async () => {
+    const page = await watched(browser, plain);
+    await page.addInitScript('HTMLCanvasElement.prototype.getContext = () => null');
+    await page.goto(plain);
+    await until(page, lit('one', 1));
+    assert.match(await page.evaluate(`document.getElementById('one').shadowRoot.querySelector('p').textContent`), /no WebGL 2/);
   });
 
   test('its button lies below the candle', async () => {

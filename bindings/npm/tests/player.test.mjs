@@ -265,6 +265,13 @@ test('a leaf falls, is thrown, and comes to rest on the ground', () => {
   bank.reset(leaf);
   const { segment, mode } = bank.chainPlace(leaf);
   assert.equal(mode, segment === 2 ? 1 : 0);
+  const placed = (body) => {
+    bank.place(leaf, { position: [1, 2, 3], ...body });
+    const { segment, mode } = bank.chainPlace(leaf); // leaves a velocity where the next body is written
+    bank.step();
+    return [segment, mode, bank.instanceOutputs(leaf)];
+  };
+  assert.deepEqual(placed({ orientation: undefined, velocity: undefined, spin: undefined }), placed({}));
   assert.throws(() => bank.place(leaf, { position: [NaN, 0, 0] }), wrong(Status.badArgument, /not finite/));
   assert.throws(() => bank.setGround(Infinity), wrong(Status.badArgument, /not finite/));
   bank.free();

@@ -57,12 +57,40 @@ test('a server that renders pages can import the elements', async () => {
   assert.equal(typeof (await import('../dist/leaves/element.js')).WispLeaves, 'function');
 });
 
+test('a pause out of view does not count as a slow frame', async () => {
+  const { Stage } = await import('../dist/stage/stage.js');
+  const canvas = { addEventListener() {}, setAttribute() {}, getContext: () => null };
+  const stage = new Stage(canvas, { breath: () => 0, air: () => ({ right: 0, away: 0 }), touched() {}, context() {}, framed() {} }, false);
+  stage.show({ update() {}, describe: () => '' });
+  let now = 0;
+  const frames = (first) => {
+    for (let k = 0; k < 70; ++k) stage.frame(k > 0 ? 1 / 60 : first, (now += 1000 / 60));
+  };
+  frames(0);
+  for (const first of [0, 20]) { // a stopped loop, and a hidden page
+    now += 20_000;
+    frames(first);
+  }
+  assert.equal(stage.adapted, 1);
+  for (let k = 0; k < 100; ++k) stage.frame(0.1, (now += 100));
+  assert.ok(stage.adapted < 1); // slow frames do
+});
+
 test('two channels are heard as their mean, and none is silence', () => {
   const [one, two] = [make(), make()];
   play(one, 1);
   assert.equal(two.process([[]]), true);
   play(two, 1, (block) => [block, block]);
   assert.deepEqual(two.said, one.said);
+});
+
+test('blocks of any length are heard alike', () => {
+  const [short, long] = [make(), make()];
+  play(short, 1);
+  long.process([[Float32Array.from([...gusts(1)].flatMap((block) => [...block]))]]);
+  const heard = ({ said }) => said.map(({ time, roomRise, ...frame }) => frame);
+  assert.equal(long.said.length, 60);
+  assert.deepEqual(heard(long), heard(short));
 });
 
 test('it starts from what was known, forgets it when told, and ends when told', () => {

@@ -26,6 +26,7 @@ OutlineCaptureOptions outline_options(const ClipSource& source, const ClipCaptur
     out.underside = options.curve->underside;
   }
   out.rate_hz = source.rate_hz;
+  if (options.frames) out.first_frame = static_cast<std::size_t>(options.frames->first);
   out.source = source.name;
   return out;
 }
@@ -130,14 +131,14 @@ void put_in_place(std::span<const float> offsets, Recording& recording) {
 
 ReportSection frames_section(const CaptureReport& picture) {
   ReportSection section{"Frames"};
-  section.entries = {
-      {"frames", picture.frames, "frames", ""},
-      {"tracked", picture.tracked, "tracked", "", {}, "frames with an outline of their own"},
-      {"duplicates", picture.duplicates, "duplicates", "", {}, "frames that repeat the one before"},
-      {"filled", picture.filled, "filled", "", {}, "interpolated between their neighbours"},
-      {"flames", picture.flames, "flames seen", ""},
-      {"out_at", picture.out_at ? ReportValue(*picture.out_at + 1) : ReportValue(), "out from frame", ""},
-      {"", picture.dropped.size(), "dropped", "", {}, "frames without an outline"}};
+  section.entries = {{"frames", picture.frames, "frames", ""},
+                     {"tracked", picture.tracked, "tracked", "", {}, "frames with an outline of their own"},
+                     {"duplicates", picture.duplicates, "duplicates", "", {}, "frames that repeat the one before"},
+                     {"filled", picture.filled, "filled", "", {}, "interpolated between their neighbours"},
+                     {"flames", picture.flames, "flames seen", ""},
+                     {"out_at", picture.out_at ? ReportValue(*picture.out_at + picture.first_frame) : ReportValue(),
+                      "out from frame", ""},
+                     {"", picture.dropped.size(), "dropped", "", {}, "frames without an outline"}};
   ReportTable dropped{"dropped", "", {{"frame", "frame"}, {"reason", "reason"}}, {}};
   for (const DroppedFrame& frame : picture.dropped) dropped.rows.push_back({frame.frame, frame.reason});
   section.tables.push_back(std::move(dropped));

@@ -200,6 +200,7 @@ Result<std::optional<VideoFrame>> VideoFile::next() {
     const std::int64_t index = place_on_grid();
     if (options_.frames && index + 1 < options_.frames->first) continue;
     if (options_.frames && index + 1 > options_.frames->last) return std::optional<VideoFrame>();
+    shortened_ = grid_->shortened();
     auto picture = pictures_.view(*frame_);
     if (!picture) return Error{path_.string() + ": " + picture.error().message};
     return std::optional<VideoFrame>(VideoFrame{*picture, index});

@@ -84,7 +84,7 @@ class VideoFile {
   std::vector<OwnedPicture> glimpses(int count);
   RgbImage rgb() { return pictures_.rgb(*frame_); }
   std::vector<std::string> warnings() const;
-  ClipTimes times() const { return {grid_->offsets(), grid_->shortened()}; }
+  ClipTimes times() const { return {grid_->offsets(), shortened_}; }
 
  private:
   bool decode();
@@ -108,6 +108,7 @@ class VideoFile {
   std::int64_t decoded_ = 0;
   double end_ = 0;  // end of the packets read, of any track, seconds after the file's beginning
   std::optional<FrameGrid> grid_;
+  int shortened_ = 0;  // number of gaps shortened up to the last frame returned by next()
   std::int64_t broken_ = 0;
 };
 

@@ -220,9 +220,9 @@ Error OutlineCapture::Stage::no_flame(const std::string& why) const {
 // Explains that fewer than `options_.flame` flames were found, and where they were counted.
 std::string OutlineCapture::Stage::too_few(const Survey& survey) const {
   return "found " + std::to_string(survey.flames) + (survey.flames == 1 ? " flame" : " flames") + " in frames " +
-         std::to_string(findings_.size() + 1) + " to " + std::to_string(findings_.size() + held_.size()) +
-         ", expected at least " + std::to_string(options_.flame) +
-         "; ask for a smaller number, or give the frames in which there are more";
+         std::to_string(findings_.size() + options_.first_frame) + " to " +
+         std::to_string(findings_.size() + held_.size() + options_.first_frame - 1) + ", expected at least " +
+         std::to_string(options_.flame) + "; ask for a smaller number, or give the frames in which there are more";
 }
 
 // Returns the edge points of a few pictures and glimpses, without and with the underside.
@@ -326,6 +326,7 @@ void OutlineCapture::Stage::describe(CapturedOutline& out) const {
     if (shared_share(waited.place, survey_->home) > kSamePlace) report.facts.still += waited.rows;
   }
   report.rate_hz = options_.rate_hz;
+  report.first_frame = options_.first_frame;
   report.points = options_.points;
   report.channel = survey_->channel;
   report.width = format_->width;

@@ -119,7 +119,8 @@ std::string sentence_of(std::size_t fact, R r) {
       {"{still}", still_share(r) > 0.3 ? " in " + percent(still_share(r)) + " of the frames" : " beyond its noise"},
       {"{stands}",
        f.stands < 2 ? "" : " (every frame stands " + std::to_string(f.stands) + " times, as in slow motion)"},
-      {"{frames}", std::to_string(f.seen_from + 1) + " to " + std::to_string(f.seen_from + f.rows)},
+      {"{frames}",
+       std::to_string(f.seen_from + r.first_frame) + " to " + std::to_string(f.seen_from + f.rows + r.first_frame - 1)},
       {"{clipped}", percent(f.clipped)},
   }};
   const bool flat = kFacts[fact].sentence == kShape && f.clipped > kClippedShape;
@@ -200,11 +201,11 @@ void judge_outline(CaptureReport& report) {
   report.reason = verdict_sentence(report);
   const OutlineFacts& facts = report.facts;
   if (static_cast<double>(facts.seen_from) > 0.3 * report.rate_hz) {
-    report.reason += "; it is seen from frame " + std::to_string(facts.seen_from + 1) + " on";
+    report.reason += "; it is seen from frame " + std::to_string(facts.seen_from + report.first_frame) + " on";
   }
   if (report.flames > 1) report.reason += "; there are " + std::to_string(report.flames) + " flames, one is followed";
   if (report.out_at && facts.other_after == 0)
-    report.reason += "; the flame is out from frame " + std::to_string(*report.out_at + 1) + " on";
+    report.reason += "; the flame is out from frame " + std::to_string(*report.out_at + report.first_frame) + " on";
 }
 
 void excuse_absence(CaptureReport& report, std::size_t rows, std::size_t times) {

@@ -165,7 +165,7 @@ std::uint8_t* sample_row_of_yuv(const Picture& picture, const Conversion to, con
 
 void extract_row(const Picture& picture, PixelChannel channel, const Conversion& to, const Region& region, int y,
                  std::uint8_t* out) {
-  if (channel == PixelChannel::kLuma) {
+  if (channel == PixelChannel::kLuma || picture.layout == PictureLayout::kGrey) {
     if (picture.layout == PictureLayout::kRgb) return luma_row_of_rgb(picture, region.x, y, region.width, out);
     return copy_row(picture.planes[0], region.x, y, region.width, out);
   }
@@ -224,7 +224,6 @@ ImageView plane_in_place(const Picture& picture, PixelChannel channel) {
 }
 
 void extract_channel(const Picture& picture, PixelChannel channel, const Region& region, std::uint8_t* out) {
-  assert(has_channel(picture, channel));
   const Conversion to = conversion(picture, channel);
   for (int y = region.y; y < region.bottom(); ++y, out += region.width) {
     if (y + kRowsAhead < region.bottom()) prefetch(picture, channel, region, y + kRowsAhead);
@@ -233,7 +232,6 @@ void extract_channel(const Picture& picture, PixelChannel channel, const Region&
 }
 
 void sample_channel(const Picture& picture, PixelChannel channel, const Region& region, int step, std::uint8_t* out) {
-  assert(has_channel(picture, channel));
   const Conversion to = conversion(picture, channel);
   const bool computed = picture.layout == PictureLayout::kYuv && channel != PixelChannel::kLuma;
   const bool mixed = picture.layout == PictureLayout::kRgb && channel == PixelChannel::kLuma;
@@ -244,7 +242,8 @@ void sample_channel(const Picture& picture, PixelChannel channel, const Region& 
     } else if (mixed) {
       for (int x = region.x; x < region.right(); x += step, ++out) luma_row_of_rgb(picture, x, y, 1, out);
     } else {
-      const PicturePlane& plane = picture.planes[channel == PixelChannel::kLuma ? 0 : static_cast<int>(channel) - 1];
+      const bool first = channel == PixelChannel::kLuma || picture.layout == PictureLayout::kGrey;
+      const PicturePlane& plane = picture.planes[first ? 0 : static_cast<int>(channel) - 1];
       const std::uint8_t* row = plane_row(plane, region.x, y);
       const std::ptrdiff_t stride = static_cast<std::ptrdiff_t>(step) * plane.step;
       for (int x = region.x; x < region.right(); x += step, row += stride, ++out) *out = *row;

@@ -27,7 +27,7 @@ void SmokeDrift::blow(float wind, const LitState& state, std::chrono::nanosecond
   // Flame heights a second that smoke drifts in a wind of 1; real smoke would leave the picture at once.
   constexpr float kSmokeCarried = 1.5F;
   if (state.since_out == kNever) return;
-  if (state.since_out <= step_time) sum_ = count_ = 0;
+  if (state.went_out || state.since_out <= step_time) sum_ = count_ = 0;  // a call may make several steps
   sum_ += wind;
   count_ += 1;
   scene.wind = kSmokeCarried * sum_ / count_;

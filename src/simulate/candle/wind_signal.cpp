@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kRate = 240;          // samples per second: 40 times the default bandwidth of the noise
 constexpr double kLongest = 86400;     // longest wind, s
+constexpr double kStrongest = 10;      // strongest recorded wind, m/s: CandleRig clamps stronger wind
 constexpr double kFadeSeconds = 0.12;  // rise and decay time of a blow
 constexpr double kBlowOutSpeed = 3;    // speed of a blow-out, m/s
 constexpr double kBlowOutSeconds = 0.3;
@@ -285,10 +286,9 @@ Result<WindSignal> WindSignal::generate(const WindSignalOptions& options, double
 
 Result<WindSignal> WindSignal::from_recording(const Recording& recording) {
   const auto inputs = channels_with_role(recording, Role::kInput);
-  if (inputs.size() != 1) {
+  if (inputs.size() != 1)
     return Error{recording.source + ": " + std::to_string(inputs.size()) +
                  " input channels, expected one to take as wind"};
-  }
   if (!(recording.rate_hz > 0)) return Error{recording.source + ": no rate, expected samples a second above 0"};
   const Channel& channel = recording.channels[inputs.front()];
   WindSignal signal;
@@ -296,7 +296,11 @@ Result<WindSignal> WindSignal::from_recording(const Recording& recording) {
   signal.samples_ = channel.samples;
   if (!fill_missing(signal.samples_))
     return Error{recording.source + ": channel '" + channel.name + "' has no samples, expected a wind in m/s"};
-  return signal;
+  const auto strong = std::ranges::find_if(signal.samples_, [](double v) { return !(std::abs(v) <= kStrongest); });
+  if (strong == signal.samples_.end()) return signal;
+  return Error{recording.source + ": " + channel.name + " in row " +
+               std::to_string(strong - signal.samples_.begin() + 1) + " is " + std::to_string(*strong) +
+               ", expected a wind within 10 m/s"};
 }
 
 double WindSignal::at(double seconds) const {

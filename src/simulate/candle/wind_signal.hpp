@@ -56,7 +56,7 @@ class WindSignal {
   static Result<WindSignal> generate(const WindSignalOptions& options, double seconds);
 
   /// Reads a recording's only input, in m/s, with missing samples interpolated linearly.
-  /// Errors: not one input, a rate that is not above 0, or only missing samples.
+  /// Errors: not one input, a rate that is not above 0, only missing samples, or a wind beyond ±10 m/s.
   static Result<WindSignal> from_recording(const Recording& recording);
 
   /// Returns the wind at a time, interpolated linearly and constant beyond the ends.

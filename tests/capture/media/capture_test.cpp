@@ -56,6 +56,20 @@ TEST_F(Capture, AnotherClipsCurveOverridesTheNumberOfPoints) {
   EXPECT_EQ(curve_of(other.recording)->knots, curve->knots);
 }
 
+// Programs that write images store a dark picture without colours.
+TEST_F(Capture, GreyImagesAmongColouredOnesHaveTheSameOutline) {
+  const Captured grey = captured({.rate_hz = 50});
+  for (int k = 0; k < 40; k += 2) {
+    const support::Plane plane = support::flame_picture(support::swaying(k));
+    std::filesystem::remove(folder_ / (std::to_string(100 + k) + ".pgm"));
+    std::ofstream out(folder_ / (std::to_string(100 + k) + ".ppm"), std::ios::binary);
+    out << "P6\n" << plane.width << ' ' << plane.height << "\n255\n";
+    for (const std::uint8_t pixel : plane.pixels) out << pixel << pixel << pixel;
+  }
+  const Captured mixed = captured({.channel = PixelChannel::kBlue, .rate_hz = 50});
+  EXPECT_EQ(mixed.recording.channels[9].samples, grey.recording.channels[9].samples);
+}
+
 TEST_F(Capture, ARangeMayBeginWithALostFrame) {
   std::filesystem::remove(folder_ / "110.pgm");
   const Captured clip = captured({.frames = FrameRange{11, 40}, .rate_hz = 50});

@@ -117,6 +117,17 @@ TEST_F(FilmTimes, ARangeMayEndWithALostFrame) {
   EXPECT_EQ(clip->recording.rows(), 59u);
 }
 
+TEST_F(FilmTimes, ARangeThatEndsAtAHoleHasNoHole) {
+  film("flame.y4m");
+  made("-i flame.y4m -vf \"setpts='PTS+gte(N,60)*5/TB'\" -vsync passthrough -pix_fmt yuv420p hole.mkv");
+  for (const auto& [last, holes] : {std::pair{60, 0}, {150, 1}}) {
+    auto reader = VideoReader::open(folder_ / "hole.mkv", {.frames = FrameRange{1, last}});
+    ASSERT_TRUE(reader) << reader.error().message;
+    EXPECT_GE(places(*reader).size(), 60u);
+    EXPECT_EQ(reader->times().shortened, holes) << last;
+  }
+}
+
 TEST_F(FilmTimes, AFilmMostlyWithoutItsSoundIsNotUsable) {
   film("flame.y4m");
   sound("puff.wav", 0.3, 0.6, 1);
@@ -359,6 +370,7 @@ TEST_F(FilmTimes, ViewsMayBeCutOff) {
       capture_views(std::vector{folder_ / "front.mkv", folder_ / "side.mkv"}, std::vector{0.0, 90.0}, {});
   ASSERT_TRUE(joined) << joined.error().message;
   EXPECT_LT(joined->recording.rows(), static_cast<std::size_t>(kFrames));
+  EXPECT_THAT(joined->report.warnings, Contains(HasSubstr("side.mkv: cut off")));
 }
 
 TEST_F(FilmTimes, AnEvenFilmIsLeftAsItIs) {

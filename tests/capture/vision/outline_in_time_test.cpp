@@ -123,6 +123,22 @@ TEST(OutlineCapture, AFilmThatIsCutToAFlameIsNotUsableAndNamesItsFrames) {
   EXPECT_THAT(captured->report.reason, HasSubstr("give frames 13 to 90 alone"));
 }
 
+TEST(OutlineCapture, AReasonNamesFramesByTheirNumbersInTheFilm) {
+  OutlineCaptureOptions options = options_for();
+  options.first_frame = 101;
+  const auto lit = [](bool burns, int k) { return burns ? noisy_flame(k) : Plane(160, 180, 8); };
+  const auto out = capture(
+      90, [&](int k) { return lit(k < 50, k); }, options);
+  EXPECT_THAT(out->report.reason, HasSubstr("out from frame 151 on"));
+  const auto late = capture(
+      160, [&](int k) { return lit(k >= 50, k); }, options);
+  EXPECT_THAT(late->report.reason, HasSubstr("it is seen from frame 151 on"));
+  options.flame = 2;
+  const auto few = capture(
+      120, [&](int k) { return lit(k >= 45, k); }, options);
+  EXPECT_THAT(few.error().message, HasSubstr("in frames 141 to 180"));
+}
+
 TEST(OutlineCapture, ALampThatMovesAtLastIsNoFlame) {
   const auto captured = capture(120, [](int k) {
     Plane plane = support::flame_picture(support::swaying(std::max(k, 80)));

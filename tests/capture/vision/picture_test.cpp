@@ -132,6 +132,18 @@ TEST(Picture, AGreyPictureHasNoColours) {
   EXPECT_FALSE(has_channel(picture, PixelChannel::kRed));
 }
 
+TEST(Picture, AnyChannelOfAGreyPictureIsItsLuma) {
+  const std::vector<std::uint8_t> pixels{9, 80, 160, 235};
+  const Picture picture = grey_picture({pixels.data(), 2, 2, 2});
+  std::vector<std::uint8_t> whole(4), some(1);
+  for (const PixelChannel channel : {PixelChannel::kRed, PixelChannel::kGreen, PixelChannel::kBlue}) {
+    extract_channel(picture, channel, picture.frame(), whole.data());
+    sample_channel(picture, channel, picture.frame(), 2, some.data());
+    EXPECT_EQ(whole, pixels);
+    EXPECT_EQ(some.front(), 9);
+  }
+}
+
 TEST(Picture, BrightnessIsFullRangeWhateverIsStored) {
   const RandomYuv yuv;
   EXPECT_DOUBLE_EQ(brightness(yuv.picture, PixelChannel::kLuma, 16), 0);

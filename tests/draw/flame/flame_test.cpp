@@ -320,6 +320,16 @@ TEST(Flame, WindCarriesTheSmoke) {
   EXPECT_GT(right, left + 30);
 }
 
+TEST(Flame, WindBeforeTheNewestExtinctionDoesNotCarryItsSmoke) {
+  constexpr std::chrono::milliseconds kStep{10};
+  SmokeDrift drift;
+  FlameScene at = scene();
+  drift.blow(1, {.lit = false, .since_out = kStep, .went_out = true}, kStep, at);
+  EXPECT_FLOAT_EQ(at.wind, 1.5F);
+  drift.blow(-1, {.lit = false, .since_out = 3 * kStep, .went_out = true}, kStep, at);  // of four steps in the second
+  EXPECT_FLOAT_EQ(at.wind, -1.5F);
+}
+
 TEST(Flame, RelitItGrowsBackToFullSize) {
   FlameScene at = scene();
   at.seconds_since_out = 30;

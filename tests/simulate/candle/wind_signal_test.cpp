@@ -126,6 +126,17 @@ TEST(WindSignal, SaysWhatARecordingLacks) {
   EXPECT_THAT(WindSignal::from_recording(recording).error().message, HasSubstr("no samples"));
 }
 
+TEST(WindSignal, ARecordedWindBeyondTheStrongestIsRefused) {
+  Recording recording;
+  recording.source = "wind.csv";
+  recording.rate_hz = 2;
+  recording.channels = {{"wind", "cm/s", Role::kInput, {10, kMissing, -40}}};
+  EXPECT_EQ(WindSignal::from_recording(recording).error().message,
+            "wind.csv: wind in row 2 is -15.000000, expected a wind within 10 m/s");
+  recording.channels[0].samples[2] = -10;
+  EXPECT_TRUE(WindSignal::from_recording(recording));
+}
+
 TEST(WindSignal, SaysWhichOptionIsWrong) {
   EXPECT_THAT(WindSignal::generate({.rest_share = 1}, 5).error().message, HasSubstr("rest_share"));
 }

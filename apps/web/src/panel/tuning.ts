@@ -28,11 +28,7 @@ export class Tuning {
   private since = 0;
   private lasts = 0;
 
-  constructor(
-    private readonly ear: Ear,
-    private readonly place: HTMLElement,
-    private readonly returnTo: HTMLElement,
-  ) {
+  constructor(private readonly ear: Ear, private readonly place: HTMLElement, private readonly returnTo: HTMLElement) {
     place.append(this.title, this.steps, this.words, this.choices, this.passed, this.actions);
   }
 

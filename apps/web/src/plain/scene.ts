@@ -23,12 +23,7 @@ uniform vec4 uColour;
 out vec4 colour;
 void main() { colour = uColour; }`;
 
-const COLOURS: readonly (readonly [number, number, number])[] = [
-  [1, 0.7, 0.36],
-  [0.5, 0.77, 1],
-  [0.62, 0.85, 0.64],
-  [0.9, 0.56, 0.72],
-];
+const COLOURS: readonly (readonly [number, number, number])[] = [[1, 0.7, 0.36], [0.5, 0.77, 1], [0.62, 0.85, 0.64], [0.9, 0.56, 0.72]];
 
 export class PlainScene implements Scene {
   private readonly bank: Bank;

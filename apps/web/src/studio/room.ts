@@ -283,8 +283,9 @@ export class Room {
   private lookThere(region: Region | null): void {
     if (this.filming !== null) return this.filming.choose(region);
     const { region: before, ...rest } = this.looked?.settings ?? {};
-    if (region !== null) this.lookAgain({ ...rest, region });
-    else if (before !== undefined) this.lookAgain(rest);
+    // A press without a drag gives the box that is shown.
+    if (region !== null && region !== before) this.lookAgain({ ...rest, region });
+    else if (region === null && before !== undefined) this.lookAgain(rest);
   }
 
   lookAgain(settings: PictureSettings): void {
@@ -358,7 +359,8 @@ export class Room {
     this.trouble('Nothing was learned from this', sentence(words), 'What was gathered before is kept. Film again, or choose a film from your phone.');
   }
 
-  async learn(): Promise<void> {
+  /** `recipe`: becomes the session's once a model is learned by it */
+  async learn(recipe = this.session.recipe): Promise<void> {
     const { session } = this;
     this.clear();
     const { turn } = this;
@@ -368,7 +370,8 @@ export class Room {
     this.working = working;
     this.showPanel(working.panel);
     try {
-      session.learned = await this.learned(session, thing === 'table' ? { kept_back: KEPT_BACK } : {}, working.watch());
+      session.learned = await this.learned({ ...session, recipe }, thing === 'table' ? { kept_back: KEPT_BACK } : {}, working.watch());
+      session.recipe = recipe;
     } catch (error) {
       if (turn !== this.turn) return;
       this.working = null;
@@ -477,8 +480,7 @@ export class Room {
 
   learnAgain(change: Partial<Recipe>): void {
     const recipe = Object.fromEntries(Object.entries({ ...this.session.recipe, ...change }).filter(([, value]) => value !== undefined));
-    this.session.recipe = recipe as unknown as Recipe;
-    void this.learn();
+    void this.learn(recipe as unknown as Recipe);
   }
 
   /** Starts over without the gathered sources. */
@@ -511,8 +513,11 @@ export class Room {
 
   /** Learns from a table, or keeps an outline's recording. `settings`: absent for recordings, which have their own. */
   async tabled(name: string, bytes: Uint8Array, settings?: TableSettings): Promise<void> {
+    const { turn } = this;
     try {
       const captured = await (await this.studio()).table(name, bytes, settings);
+      // The columns were left meanwhile.
+      if (settings !== undefined && turn !== this.turn) return;
       const outlines = Outlines.of(captured);
       const take: Take = { name, captured, outlines, reel: new Reel(), film: null, settings: {}, again: null };
       if (outlines === null) {

@@ -20,6 +20,11 @@ export interface TableHead {
 const separatorOf = (line: string): RegExp => [/\t/, /;/, /,/].find((one) => one.test(line)) ?? /\s+/;
 
 const cell = (text: string): string => text.trim().replace(/^"(.*)"$/, '$1');
+/** Cells of a line. A separator within quotes, which an odd number of quotes follows, separates nothing. */
+function cellsOf(line: string, separator: RegExp): string[] {
+  const whole = separator.source === '\\s+' ? line.trim() : line.trimEnd();
+  return whole.split(line.includes('"') ? new RegExp(`${separator.source}(?=(?:[^"]*"[^"]*")*[^"]*$)`) : separator).map(cell);
+}
 /** Value of a cell with decimal comma or point, and Fortran's exponents; NaN where it is no number. */
 const numberOf = (text: string): number => (text === '' ? NaN : Number(text.replace(',', '.').replace(/d/i, 'e')));
 const isNumber = (text: string): boolean => text === '' || /^(nan|na|n\/a)$/i.test(text) || Number.isFinite(numberOf(text));
@@ -36,8 +41,8 @@ export function headOf(bytes: Uint8Array): TableHead {
   if (bytes.length > LOOKED_AT && all.length > 1) all.pop(); // the last line is cut off
   const comments = all.filter((line) => /^[#%]/.test(line));
   const lines = all.filter((line) => !/^[#%]/.test(line)).slice(0, ROWS);
-  const separator = separatorOf(lines[0] ?? '');
-  const cells = lines.map((line) => line.trim().split(separator).map(cell));
+  const separator = separatorOf((lines[0] ?? '').replace(/"[^"]*"/g, ''));
+  const cells = lines.map((line) => cellsOf(line, separator));
   const first = cells[0] ?? [];
   const unnamed = first.length > 0 && first.every((name) => name !== '' && isNumber(name));
   const names = unnamed ? first.map((_, k) => `c${k + 1}`) : first;
@@ -88,7 +93,7 @@ type Role = 'input' | 'output' | 'ignored';
 
 /** Role of a column suggested by its name; null: none. */
 function suggested(name: string, numeric: boolean): Role | null {
-  if (!numeric || isTime(name) || /^(date|index|n|k)\b/i.test(name)) return 'ignored';
+  if (!numeric || isTime(name) || /^$|^(date|index|n|k)\b/i.test(name)) return 'ignored';
   if (/^(u|in|input|x|power|heat|voltage|wind|force|steam|fuel|valve)/i.test(name)) return 'input';
   if ([...POSITION, ...ORIENTATION].includes(name)) return 'output';
   return /^(y|out|output|temp|level|speed|angle|pos|v)/i.test(name) ? 'output' : null;

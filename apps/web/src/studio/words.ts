@@ -55,6 +55,9 @@ export type Thing = 'flame' | 'table' | 'fall';
 
 const LEARNED: Readonly<Record<Thing, string>> = { flame: 'It learned your flame', table: 'It learned how this behaves', fall: 'It learned how this falls' };
 
+/** Whether a table's model has inputs. Without them its free play has a phase of its own, and does not follow the rows. */
+const isDriven = (report: Report): boolean => within(report, 'operating_point', 'inputs', 'length') !== 0;
+
 /** Percent: a table's model is refused if no output's fit on held-out rows is above this. */
 const FOLLOWS = 5;
 
@@ -93,7 +96,7 @@ function praiseOf(report: Report): string {
 
 export function verdictOf({ report, judged }: Learned, thing: Thing): Verdict {
   const fits = judged === undefined ? [] : judgedFits(judged.report).map(({ free }) => free);
-  const lost = thing === 'table' && fits.length > 0 && fits.every((fit) => !(fit > FOLLOWS));
+  const lost = thing === 'table' && isDriven(report) && fits.length > 0 && fits.every((fit) => !(fit > FOLLOWS));
   const good = report.usable?.verdict === true && !lost;
   const reason = lost && report.usable?.verdict === true ? 'it fits the rows that it was learned from, but on those that were kept back it follows nothing that comes out' : (report.usable?.reason ?? '');
   const own = thing !== 'flame' ? '' : good ? praiseOf(report) : (REFUSED[report.usable?.code ?? ''] ?? '');
@@ -156,7 +159,7 @@ export function metersOf({ report, judged }: Learned, thing: Thing, outputs: rea
   const fits = kept.length > 0 ? kept : outputs.map((name, k) => ({ name, next: fit('1', k), free: fit('inf', k) }));
   for (const { name, next, free } of fits.slice(0, MAX_OUTPUTS)) {
     add(`${name}, a row ahead`, next / 100, 0.5);
-    add(`${name}, played from what goes in alone`, free / 100, 0.4);
+    if (isDriven(report)) add(`${name}, played from what goes in alone`, free / 100, 0.4);
   }
   return made;
 }

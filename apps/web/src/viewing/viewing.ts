@@ -73,10 +73,7 @@ export class Viewing {
   private filmed: Side = 'left';
 
   /** `of`: name of the played model and source of the films, for the saved answers. */
-  constructor(
-    private readonly pairs: readonly Pair[],
-    private readonly of: { model: string; from: string },
-  ) {
+  constructor(private readonly pairs: readonly Pair[], private readonly of: { model: string; from: string }) {
     this.dialog.append(element('header', {}, this.title, closeButton(() => this.dialog.close())), this.stage, this.words, this.actions);
     document.body.append(this.dialog);
     this.dialog.showModal();

@@ -44,10 +44,7 @@ export class Candle {
   /** position relative to the table's middle, seen from where the flame was filmed */
   readonly seat: readonly [x: number, z: number];
 
-  constructor(
-    readonly stand: Stand,
-    readonly id: bigint,
-  ) {
+  constructor(readonly stand: Stand, readonly id: bigint) {
     this.lastX = stand.x;
     this.seat = [stand.x, stand.z];
   }

@@ -64,6 +64,7 @@ export abstract class SceneElement extends Base {
   private readonly words = document.createElement('p');
   private readonly wind = new Breath();
   protected stage: Stage | null = null;
+  private lacking = ''; // said while there is nothing else to say
   private model: Model | null = null;
   private microphone: Microphone | null = null;
   /** numbers of the latest load, and of the latest opening of the microphone; results of earlier ones are dropped */
@@ -103,7 +104,7 @@ export abstract class SceneElement extends Base {
       breath: (seconds) => (this.getAttribute('wind') === 'none' ? 0 : this.wind.update(seconds, this.stage?.frames ?? 0)),
       air: () => (this.getAttribute('wind') === 'none' ? { right: 0, away: 0 } : this.wind.air),
       touched: () => undefined,
-      context: (state) => this.say(state === 'absent' ? 'This browser shows no WebGL 2.' : ''),
+      context: (state) => this.say((this.lacking = state === 'absent' ? 'This browser shows no WebGL 2.' : '')),
       framed: () => this.scene !== null && this.watch?.(),
     }, this.hasAttribute('clear'));
     this.stage.take();
@@ -153,11 +154,12 @@ export abstract class SceneElement extends Base {
   private async play(): Promise<void> {
     const turn = ++this.turn;
     const src = this.getAttribute('src');
+    let model: Model | null = null;
     try {
       const url = src === null ? this.usualModel : new URL(src, document.baseURI);
       const [library, answer] = await Promise.all([shared(), fetch(url)]);
       if (!answer.ok) throw new Error(`${url.pathname.split('/').pop() ?? 'the model'} could not be fetched (${answer.status})`);
-      const model = library.model(await answer.arrayBuffer());
+      model = library.model(await answer.arrayBuffer());
       const scene = await this.sceneOf(model, this.settings());
       if (turn !== this.turn || this.stage === null) {
         scene.dispose();
@@ -170,6 +172,7 @@ export abstract class SceneElement extends Base {
       this.say('');
       this.dispatchEvent(new Event('load'));
     } catch (error) {
+      if (model !== this.model) model?.free();
       if (turn !== this.turn) return;
       this.say(error instanceof Error ? error.message : String(error));
       this.dispatchEvent(new ErrorEvent('error', { error, message: this.words.textContent ?? '' }));
@@ -177,8 +180,8 @@ export abstract class SceneElement extends Base {
   }
 
   private say(words: string): void {
-    this.words.textContent = words;
-    this.words.hidden = words === '';
+    this.words.textContent = words || this.lacking;
+    this.words.hidden = this.words.textContent === '';
   }
 
   private showWind(): void {

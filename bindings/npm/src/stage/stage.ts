@@ -19,6 +19,8 @@ const LOOK_EVERY = 45;
 const LOOK_SECONDS = 1.2;
 const LOOK_FRAMES = 5;
 const FAR_TOO_SLOW = 1 / 16;
+/** Seconds above which a frame follows a pause, as of a hidden page, and the next check starts anew. */
+const PAUSE = 1;
 const FADE_SECONDS = 0.45;
 
 /** Cost of a frame: milliseconds of this thread. */
@@ -154,6 +156,7 @@ export class Stage {
     this.cost.draw = performance.now() - between;
     this.frames += 1;
     this.events.framed(this.cost, seconds);
+    if (passed === 0 || passed > PAUSE) this.lookedAt = this.framesSinceLook = 0; // out of view before
     this.lookHowSmooth(now);
   }
 
@@ -177,7 +180,7 @@ export class Stage {
     const mean = seconds / this.framesSinceLook;
     // Far too slow: removes all expensive effects at once.
     const coarser = mean > FAR_TOO_SLOW ? 0.5 : 0.8;
-    if (this.lookedAt > 0 && mean > SMOOTH && mean < 1) this.adapted = Math.max(MIN_DETAIL, this.adapted * coarser);
+    if (this.lookedAt > 0 && mean > SMOOTH) this.adapted = Math.max(MIN_DETAIL, this.adapted * coarser);
     this.lookedAt = now;
     this.framesSinceLook = 0;
   }

@@ -51,6 +51,11 @@ export function offer({ load, openMicrophone }, worker) {
     },
 
     calibration: () => microphone.calibration(),
+    /** Opens the microphone again, as after a long interruption, after a guided calibration that heard `known`. */
+    reopen(known) {
+      microphone.hear({ type: 'calibrated', known, heard: true });
+      return microphone.reopen();
+    },
     strongest: () => winds.reduce((most, { wind }) => Math.max(most, wind), 0),
   };
   window.page = page;

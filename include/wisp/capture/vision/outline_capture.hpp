@@ -26,6 +26,7 @@ struct OutlineCaptureOptions {
   std::vector<double> knots;            ///< full knot vector of a model or an earlier capture; empty: estimated
   std::optional<bool> underside;        ///< whether the curve includes the underside; none: if it fits better
   double rate_hz = 0;                   ///< frames a second, > 0
+  std::size_t first_frame = 1;          ///< number of the first frame in its film, for messages
   std::string source;                   ///< name of the frames' source, for messages and the recording
   std::size_t held_bytes = 48u << 20;   ///< bytes of buffered frames, at least 8 frames, that start the first decisions
   int held_frames = 40;                 ///< number of buffered frames at which the first decisions are made, 8 to 200
@@ -80,6 +81,7 @@ struct OutlineFacts {
 /// Figures and verdict of a capture.
 struct CaptureReport {
   std::size_t frames = 0;             ///< number of rows, lost frames included
+  std::size_t first_frame = 1;        ///< number of row 0 in the film, for the reason
   std::size_t tracked = 0;            ///< number of rows with an outline of their own
   std::size_t duplicates = 0;         ///< number of frames that repeat the previous one
   std::size_t filled = 0;             ///< number of rows interpolated between their neighbours

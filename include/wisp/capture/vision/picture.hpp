@@ -54,9 +54,8 @@ bool has_channel(const Picture& picture, PixelChannel channel);
 ImageView plane_in_place(const Picture& picture, PixelChannel channel);
 
 /// Computes `channel` over `region` into `out`, row by row, `region.width` bytes per row, in the stored range: limited
-/// for luma of a picture without full range, 0 to 255 for red, green and blue.
+/// for luma of a picture without full range, 0 to 255 for red, green and blue. Of a grey picture any channel is luma.
 ///
-/// Precondition: has_channel(picture, channel).
 /// Precondition: region lies inside the picture and `out` holds region.width × region.height bytes.
 void extract_channel(const Picture& picture, PixelChannel channel, const Region& region, std::uint8_t* out);
 

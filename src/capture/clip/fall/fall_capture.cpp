@@ -122,11 +122,13 @@ Result<Captured> FallCapture::finish() {
     repeated += repeats;
     if (!repeats) seen[k] = fall::seen_in(frames_[k], wall);
   }
-  const Falls found =
-      fall::falls_in(seen, {source_.rate_hz, static_cast<double>(width_), static_cast<double>(height_)});
+  Falls found = fall::falls_in(seen, {source_.rate_hz, static_cast<double>(width_), static_cast<double>(height_)});
   const std::vector<Fall>& falls = found.falls;
   if (falls.empty()) return fall::no_fall(source_.name, wall, seen, found);
   const fall::Facts facts = fall::facts_of(falls);
+  if (options_.frames) {
+    for (Fall& fall : found.falls) fall.first += static_cast<std::size_t>(options_.frames->first - 1);
+  }
   Captured out{recorded(falls, facts.tilt()), {}};
   out.report.verdict = fall::verdict_on(found, wall);
   set_verdict(out.recording, out.report.verdict->usable, out.report.verdict->reason);

@@ -158,7 +158,7 @@ Result<void> join_times(std::span<const FilmedView> views, Joined& joined) {
     const Recording& own = view.recording;
     const auto verdict = verdict_of(own);
     if (verdict && !verdict->usable) return Error{own.source + ": cannot be joined: " + verdict->reason};
-    if (std::abs(own.rate_hz / first.rate_hz - 1) > 1e-3) {
+    if (std::abs(own.rate_hz / first.rate_hz - 1) > 5e-4) {
       return Error{own.source + ": has " + number_text(own.rate_hz, 5) + " frames a second, but " + first.source +
                    " has " + number_text(first.rate_hz, 5) + "; film both at the same rate"};
     }

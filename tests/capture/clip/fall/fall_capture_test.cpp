@@ -281,6 +281,13 @@ TEST(FallsOnFilm, ARegionLeavesOutWhatMovesBesideIt) {
   EXPECT_LT(errors_of(*clip, film).position, 0.005 * kMetres);
 }
 
+TEST(FallsOnFilm, FallsOfARangeAreListedWithTheFilmsFrames) {
+  const Film film{.falls = 3};
+  const auto whole = captured(film), part = captured(film, {.height_metres = kMetres, .frames = FrameRange{101, 298}});
+  ASSERT_TRUE(whole && part);
+  EXPECT_EQ(first_frame(*part, 0), first_frame(*whole, 0) + 100);
+}
+
 TEST(FallsOnFilm, WithoutAHeightOneMetreIsTakenAndSaid) {
   const auto clip = captured(Film{}, {});
   ASSERT_TRUE(clip) << clip.error().message;

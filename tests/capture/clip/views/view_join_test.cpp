@@ -214,6 +214,8 @@ TEST(JoinViews, RefusesFilmsThatCannotBeJoined) {
   FilmedView faster[] = {front, side};
   faster[1].recording.rate_hz = 60;
   EXPECT_THAT(refusal(faster), HasSubstr("90.mp4: has 60 frames a second, but 0.mp4 has 50"));
+  faster[1].recording.rate_hz = 50 / 1.001;  // as 29.97 beside 30: a frame off after 20 s
+  EXPECT_THAT(refusal(faster), HasSubstr("90.mp4: has 49.95 frames a second, but 0.mp4 has 50"));
   const FilmedView coarse[] = {front, film({.azimuth = 90, .points = 6})};
   EXPECT_THAT(refusal(coarse), HasSubstr("90.mp4: has 6 control points"));
   FilmedView refused[] = {front, side};

@@ -235,7 +235,8 @@ export class Filming {
 
   private finish(said: string): void {
     const { live, reel, settings } = this;
-    if (this.state !== 'filming' || live === null) return;
+    // Until the camera is locked, `live` is still the preview's.
+    if (this.state !== 'filming' || this.began === 0 || live === null) return;
     this.state = 'ending';
     this.live = null;
     this.camera.feed(null);

@@ -35,15 +35,9 @@ export function resultPanel(session: Session, learned: Learned, room: Room): HTM
   const meters = metersOf(learned, thing, outputsOf(session));
   const panel = element('div', { class: 'panel result' }, verdictHead(good, title, reason));
   if (thing !== 'table') {
-    panel.append(
-      element(
-        'div',
-        { class: 'actions' },
-        button(TO_PLAY[thing][good ? 0 : 1], 'blow', () => room.blow(model), good),
-        button('Film more', 'more', () => room.gather(), !good),
-        ...(flame ? [telling('Which one was filmed?', 'compare', 'One moment…', () => room.compare(model))] : []),
-      ),
-    );
+    const play = button(TO_PLAY[thing][good ? 0 : 1], 'blow', () => room.blow(model), good);
+    const compare = flame ? [telling('Which one was filmed?', 'compare', 'One moment…', () => room.compare(model))] : [];
+    panel.append(element('div', { class: 'actions' }, play, button('Film more', 'more', () => room.gather(), !good), ...compare));
   }
   if (meters.length > 0) panel.append(element('section', {}, element('h3', {}, titleOfMeters(thing, learned)), ...meters.map(meter)));
   panel.append(

@@ -11,7 +11,7 @@ import type { Thing } from '../words.js';
 
 async function copy(text: string): Promise<string> {
   const { clipboard } = navigator as { clipboard?: Clipboard };
-  return clipboard === undefined ? 'This browser does not let it be copied' : clipboard.writeText(text).then(() => 'Copied');
+  return clipboard === undefined ? 'This browser does not let it be copied' : clipboard.writeText(text).then(() => 'Copied', () => 'Press again to copy it');
 }
 
 export type Moving = 'film' | 'gif';
@@ -33,8 +33,9 @@ export function takingOf(session: Session, { model }: Learned, room: Room): HTML
     return 'Saved';
   });
   const whole = model.length <= MAX_PACKED_BYTES;
+  let small: Uint8Array | null = null; // kept, as browsers let only what follows a press at once be copied
   const link = telling('A link', 'link', whole ? '' : 'Making it small…', async () => {
-    const sent = whole ? model : await room.small();
+    const sent = whole ? model : (small ??= await room.small());
     if (sent.length > MAX_PACKED_BYTES) return 'Too large for a link: send the model';
     const address = new URL(location.href);
     address.hash = new URLSearchParams({ scene: 'candle', seed: '1', model: await packModel(sent) }).toString();

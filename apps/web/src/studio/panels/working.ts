@@ -29,11 +29,7 @@ export class Working {
 
   /** Observer of the work that this panel shows. */
   watch(seen?: (seen: Seen) => void): Watch {
-    return {
-      signal: this.control.signal,
-      progress: (stage, share) => this.progress(stage, share),
-      ...(seen === undefined ? {} : { seen }),
-    };
+    return { signal: this.control.signal, progress: (stage, share) => this.progress(stage, share), ...(seen === undefined ? {} : { seen }) };
   }
 
   abort(): void {

@@ -115,14 +115,8 @@ function curvesOf({ series, rate, rows }: Captured): Curve[] {
   const every = Math.max(1, Math.ceil(rows / 2000));
   return series.map(({ name, unit, samples, role }) => {
     const kept = Array.from({ length: Math.floor(rows / every) }, (_, k) => k * every);
-    return {
-      id: `${role}: ${name}`,
-      label: `${name}, ${role === 'input' ? 'goes in' : 'comes out'}`,
-      x_label: 'seconds',
-      y_label: unit,
-      x: kept.map((row) => row / rate),
-      y: kept.map((row) => samples[row] ?? NaN),
-    };
+    const label = `${name}, ${role === 'input' ? 'goes in' : 'comes out'}`;
+    return { id: `${role}: ${name}`, label, x_label: 'seconds', y_label: unit, x: kept.map((row) => row / rate), y: kept.map((row) => samples[row] ?? NaN) };
   });
 }
 

@@ -36,13 +36,7 @@ export class Duet {
   readonly loop = new FrameLoop((passed) => this.frame(passed));
 
   /** `moved`: receives the shown time, as a share of the film */
-  constructor(
-    wisp: Library,
-    private readonly take: Take,
-    private readonly outlines: Outlines,
-    model: Uint8Array,
-    private readonly moved: (share: number) => void,
-  ) {
+  constructor(wisp: Library, private readonly take: Take, private readonly outlines: Outlines, model: Uint8Array, private readonly moved: (share: number) => void) {
     this.play = new Play(wisp, outlines, model);
     this.part = partOf(outlines);
     this.place.append(

@@ -7,12 +7,7 @@ const REACH = 1.5;
 /** Colours of the glow from the middle outwards, and of body and core from foot to top. */
 const GLOW: Stops = [[0, 'rgb(255 150 60 / 34%)'], [0.35, 'rgb(255 120 40 / 12%)'], [1, 'rgb(255 110 30 / 0%)']];
 const BODY: Stops = [[0, 'rgb(70 90 200 / 55%)'], [0.12, 'rgb(255 140 60 / 82%)'], [0.4, '#ffc46a'], [1, '#ff9a3c']];
-const CORE: Stops = [
-  [0, 'rgb(255 190 110 / 0%)'],
-  [0.3, 'rgb(255 232 180 / 34%)'],
-  [0.75, 'rgb(255 250 236 / 42%)'],
-  [1, 'rgb(255 224 160 / 0%)'],
-];
+const CORE: Stops = [[0, 'rgb(255 190 110 / 0%)'], [0.3, 'rgb(255 232 180 / 34%)'], [0.75, 'rgb(255 250 236 / 42%)'], [1, 'rgb(255 224 160 / 0%)']];
 
 /** Paints a flame with an outline in pixels, x and y alternating, from the base's left over the tip to its right. */
 export function paintFlame(context: CanvasRenderingContext2D, line: Float32Array, height: number): void {

@@ -19,12 +19,7 @@ export class Strip {
   readonly place = element('figure', { class: 'strip' });
   private readonly canvas = element('canvas', { role: 'img', 'aria-label': 'Film strip: recorded above, played below' });
 
-  constructor(
-    private readonly wisp: Library,
-    private readonly take: Take,
-    private readonly outlines: Outlines,
-    private readonly model: Uint8Array,
-  ) {
+  constructor(private readonly wisp: Library, private readonly take: Take, private readonly outlines: Outlines, private readonly model: Uint8Array) {
     this.place.append(this.canvas, element('figcaption', {}, 'Recorded above, played below, at the same moments.'));
     new ResizeObserver(() => this.draw()).observe(this.canvas);
   }
