@@ -33,6 +33,13 @@ Result<Fit> learn(Recordings recordings, const Recipe& recipe, const Progress& p
   arx::complete(*fit);
   for (const Recording& one : recordings) {
     if (one.rate_note.guessed) fit->report.warnings.push_back(one.source + ": " + one.rate_note.text);
+    for (const Channel& channel : one.channels) {
+      const auto first = find_channel(recordings.front(), channel.name);
+      const std::string unit = first ? recordings.front().channels[*first].unit : "";
+      if (unit.empty() || channel.unit.empty() || channel.unit == unit) continue;
+      fit->report.warnings.push_back(one.source + ": '" + channel.name + "' is in " + channel.unit +
+                                     ", in the first recording in " + unit + ": units are not converted");
+    }
   }
   return fit;
 }

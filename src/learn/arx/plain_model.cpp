@@ -18,7 +18,7 @@ ChannelSpan span_of(const std::string& name, std::span<const Recording> recordin
   bool first = true;
   for (const Recording& recording : recordings) {
     const Channel& found = recording.channels[*find_channel(recording, name)];
-    span.unit = found.unit;
+    if (span.unit.empty()) span.unit = found.unit;
     for (double sample : found.samples) {
       if (std::isnan(sample)) continue;
       span.lowest = first ? sample : std::min(span.lowest, sample);

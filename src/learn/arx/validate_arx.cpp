@@ -28,6 +28,7 @@ struct Subject {
   const Recording& recording;
   const ValidationOptions& options;
   std::vector<std::vector<double>> sd;  // standard deviations of prediction errors: [output][step − 1]
+  std::vector<double> moved;            // added to every output of the recording by seen_by()
 
   const std::vector<double>& measured(std::size_t output) const {
     return recording.channels[*find_channel(recording, channels.outputs[output])].samples;
@@ -123,6 +124,7 @@ void add_plots(const Subject& subject, const Judged& judged, ReportSection& sect
   for (std::size_t i = 0; i < subject.channels.outputs.size(); ++i) {
     const std::string place = "." + std::to_string(i), unit = subject.model.outputs[i].unit;
     const auto plot = [&](const std::string& id, const std::string& label, std::vector<double> y) {
+      for (double& value : y) value -= subject.moved[i];
       section.series.push_back({id, label, "time, s", unit, seconds, std::move(y)});
     };
     plot("measured" + place, "measured", subject.measured(i));
@@ -200,9 +202,10 @@ Result<Report> validate_arx(const Model& model, const Recording& recording, cons
   if (auto ok = check_steps(options.steps); !ok) return ok.error();
   const ChannelChoice channels = arx::channels_of(model);
   if (const auto found = arx::sources_of({&recording, 1}, channels); !found) return found.error();
-  const Recording seen = arx::seen_by(model, recording);
+  std::vector<double> moved;
+  const Recording seen = arx::seen_by(model, recording, &moved);
   const auto& dynamics = std::get<ArxModel>(model.dynamics);
-  const arx::Subject subject{model, dynamics, channels, seen, options, arx::error_sd(dynamics, options.steps)};
+  const arx::Subject subject{model, dynamics, channels, seen, options, arx::error_sd(dynamics, options.steps), moved};
   const auto judged = arx::judge(subject, progress);
   if (!judged) return judged.error();
   return arx::report_of(subject, *judged);

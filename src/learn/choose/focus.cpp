@@ -19,6 +19,7 @@ using Eigen::VectorXd;
 
 constexpr std::size_t kManyRows = 8192;    // above this, candidates are compared on a sample of the rows
 constexpr std::size_t kRowsOfMany = 4096;  // number of rows in that sample
+constexpr std::size_t kRowsOfEach = 400;   // minimum mean rows of a recording there: a held-out fifth exceeds the lags
 constexpr double kMaxKernelWork = 2e7;     // maximum of the sum over outputs of (number of coefficients)³
 constexpr double kWorthIt = 0.02;          // minimum gain, as a share of the squared error
 constexpr int kRowsALag = 10;              // minimum mean length of a recording's episodes, in lags of the kernel
@@ -101,7 +102,8 @@ class Chooser {
       : channels_(channels), options_(options) {
     std::size_t rows = 0;
     for (const Recording& one : recordings) rows += one.rows();
-    seen_ = middles_of(recordings, rows > kManyRows ? kRowsOfMany : kManyRows);
+    const std::size_t some = rows > kManyRows ? kRowsOfMany : kManyRows;
+    seen_ = middles_of(recordings, std::max(some, kRowsOfEach * recordings.size()));
     options_.judge_free_run = options_.covariance = false;
     std::vector<FocusCandidate> candidates;
     const ArxOrders apart = decoupled_orders(options.orders);

@@ -233,6 +233,7 @@ Result<OrderSearch> search_orders(std::span<const Recording> estimation, std::sp
   if (options.by == OrderCriterion::kValidation && validation.empty()) {
     return Error{"the best candidate by validation was requested without validation recordings"};
   }
+  if (auto ok = check_steps({&options.steps, 1}); !ok) return ok.error();
   auto candidates = list_candidates(channels, options);
   if (!candidates) return candidates.error();
   for (const OrderCandidate& candidate : *candidates) {

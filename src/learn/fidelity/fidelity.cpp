@@ -152,9 +152,11 @@ void take_channels(const Sides& sides, const Distances& value, const Distances& 
 }
 
 void take_long(const Sides& sides, const Stretches& pieces, const FidelityOptions& options, Fidelity& out) {
-  const LongDistances value = long_distances(sides.real, pieces, sides.rate_hz);
-  const LongDistances floor = long_distances(sides.halves.first, sides.halves.second, sides.rate_hz);
-  const LongDistances ceiling = long_distances(sides.real, shuffled(sides.real, options.seed), sides.rate_hz);
+  const auto apart = [&](const Stretches& a, const Stretches& b) {
+    return long_distances(a, b, sides.rate_hz, options.motion_only);
+  };
+  const LongDistances value = apart(sides.real, pieces), floor = apart(sides.halves.first, sides.halves.second);
+  const LongDistances ceiling = apart(sides.real, shuffled(sides.real, options.seed));
   out.long_motion = {value.motion, floor.motion, ceiling.motion};
   out.long_spectra = {value.spectra, floor.spectra, ceiling.spectra};
   out.tails = {value.tails, floor.tails, ceiling.tails};
@@ -175,8 +177,8 @@ Result<Fidelity> fidelity(std::span<const Recording> real, std::span<const Recor
   take_channels(*sides, value, floor, ceiling, out);
   out.energy_distance = {value.energy, floor.energy, ceiling.energy};
   take_long(*sides, pieces, options, out);
-  out.verbatim_seconds =
-      static_cast<double>(longest_verbatim_run(sides->real, sides->synthesized, kVerbatimTolerance)) / sides->rate_hz;
+  const auto rows = options.motion_only ? 0 : longest_verbatim_run(sides->real, sides->synthesized, kVerbatimTolerance);
+  out.verbatim_seconds = options.motion_only ? kMissing : static_cast<double>(rows) / sides->rate_hz;
   out.welch_samples = lengths.welch;
   return out;
 }

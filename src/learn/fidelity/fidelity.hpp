@@ -20,6 +20,8 @@ struct FidelityOptions {
   std::size_t welch_samples = 64;     ///< even, at least 16; at most the longest stretch of each half and of the play
   std::size_t max_windows = 500;      ///< ≥ 2, maximum on each side
   std::uint64_t seed = 1;
+  bool motion_only = false;  ///< compute no long_spectra, tails and verbatim_seconds (NaN), whose time grows with the
+                             ///< square of the rate or of the length
 };
 
 struct Bounded {

@@ -287,7 +287,7 @@ FeatureWindows spectral_windows(std::span<const Stretch> stretches, std::size_t 
   return out;
 }
 
-LongDistances long_distances(std::span<const Stretch> a, std::span<const Stretch> b, double rate_hz) {
+LongDistances long_distances(std::span<const Stretch> a, std::span<const Stretch> b, double rate_hz, bool motion_only) {
   const std::size_t rows = std::lround(kLongSeconds * rate_hz) / 2 * 2;
   if (rows < 8) return {kMissing, kMissing, tails_apart(a, b)};
   const auto hop_of = [&](std::span<const Stretch> side, std::size_t step) {
@@ -300,6 +300,7 @@ LongDistances long_distances(std::span<const Stretch> a, std::span<const Stretch
   const auto spectra = [&](std::span<const Stretch> side) {
     return thinned(spectral_windows(side, rows, hop_of(side, 1)), kMaxLongWindows);
   };
+  if (motion_only) return {energy_of(motion(a), motion(b)), kMissing, kMissing};
   return {energy_of(motion(a), motion(b)), energy_of(spectra(a), spectra(b)), tails_apart(a, b)};
 }
 

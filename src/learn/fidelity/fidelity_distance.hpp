@@ -94,8 +94,9 @@ struct LongDistances {
 };
 
 /// Compares two sides, by at most 300 windows of each. Motion windows keep every n-th row, with the largest n that
-/// leaves 15 rows a second; spectra cover faster motion. Precondition: both sides have the same channels.
-LongDistances long_distances(std::span<const Stretch> a, std::span<const Stretch> b, double rate_hz);
+/// leaves 15 rows a second. With `motion_only` the others are NaN. Precondition: both sides have the same channels.
+LongDistances long_distances(std::span<const Stretch> a, std::span<const Stretch> b, double rate_hz,
+                             bool motion_only = false);
 
 /// Windows of `rows` rows that start every `hop` rows. Features are logarithms of the power in at most 13 geometric
 /// bands per channel, after removing the mean and applying a Hann window. Precondition: rows >= 8 and even, hop >= 1.

@@ -15,25 +15,27 @@ constexpr double kMinGone = 0.5;       // minimum seconds of an absence: spontan
 constexpr double kLookedBack = 0.6;    // seconds before the disappearance that are searched for the wind
 constexpr double kMinBlown = 0.15;     // seconds over which wind is averaged: noise has short peaks, wind lasts
 constexpr double kSettling = 0.5;      // seconds after re-ignition that are excluded as transient
-constexpr double kMinPresence = 0.15;  // seconds: shorter appearances between two absences are an ember's
+constexpr double kMinPresence = 0.15;  // seconds: appearances shorter than it and the absence before are an ember's
 
 constexpr double kUsualStep = 0.9, kJump = 20, kJumpHeights = 0.2, kMaxRemoved = 0.05;  // see remove_jumps()
 
-// Runs of rows without an outline, joined over appearances shorter than kMinPresence. Rows whose picture is missing
-// (kLostRows) do not count.
+// Runs of rows without an outline, joined over an ember's appearances. Rows of lost pictures (kLostRows) do not count.
 std::vector<Episode> absences(const Recording& recording, const OutlineLayout& layout) {
   std::vector<Episode> runs;
   const std::size_t least = rows_of(kMinPresence, recording.rate_hz);
+  std::size_t appeared = 0;  // rows with an outline since the last run
   for (std::size_t row = 0; row < recording.rows(); ++row) {
     if (is_flagged(recording, kLostRows, row)) continue;
     const bool seen = std::none_of(layout.outputs.begin(), layout.outputs.end(),
                                    [&](std::size_t c) { return std::isnan(recording.channels[c].samples[row]); });
+    appeared += seen ? 1 : 0;
     if (seen) continue;
-    if (!runs.empty() && row < runs.back().end + least) {
+    if (!runs.empty() && row < runs.back().end + least && appeared < runs.back().size()) {
       runs.back().end = row + 1;
     } else {
       runs.push_back({row, row + 1});
     }
+    appeared = 0;
   }
   return runs;
 }
@@ -141,15 +143,18 @@ Result<std::vector<BlowOut>> find_blow_outs(const Recording& recording, const st
   const std::size_t window = rows_of(kMinBlown, recording.rate_hz);
   const auto wind = averaged(recording.channels[*channel].samples, window);
   const double usual = usual_wind(wind, gone, looked_back);
+  const std::vector<Episode> starts = episodes(recording);
   std::vector<BlowOut> out;
   for (const Episode& run : gone) {
     if (run.begin == 0) continue;
+    const auto begins = [&](const Episode& one) { return one.begin == run.begin; };
+    const bool seen = std::none_of(starts.begin(), starts.end(), begins);
     // A strong puff lasts beyond the few frames in which the flame disappears, so rows of the absence count too.
     const std::size_t first = run.begin - std::min(run.begin, looked_back);
     const std::size_t last = std::min(run.end, run.begin + window);
     const double strongest = *std::max_element(wind.begin() + static_cast<std::ptrdiff_t>(first),
                                                wind.begin() + static_cast<std::ptrdiff_t>(last));
-    out.push_back({run.begin, run.end, strongest, strongest > usual});
+    out.push_back({run.begin, run.end, strongest, seen && strongest > usual});
   }
   return out;
 }

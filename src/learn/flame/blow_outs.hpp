@@ -24,7 +24,7 @@ struct BlowOut {
 std::size_t rows_of(double seconds, double rate_hz);
 
 /// Returns stretches without an outline of 0.5 s or more, in order. A stretch at the recording's start is ignored,
-/// since the flame was not seen to go out. Errors: not a recording of an outline, no such input.
+/// since the flame was not seen to go out; one at a later episode's start is not blown. Errors: no outline or input.
 Result<std::vector<BlowOut>> find_blow_outs(const Recording& recording, const std::string& input);
 
 /// Removes misdetected outlines: stretches shorter than half a second between two jumps, or between a jump and an end

@@ -27,6 +27,7 @@ struct ExtinctionEvidence {
   double scale = 1;                ///< value of that channel that equals 1 in the model, > 0
   std::vector<BlowOut> blow_outs;  ///< result of find_blow_outs()
   double vanishing = 0;            ///< seconds for which an extinguished flame remains visible
+  double pixels_per_unit = 0;      ///< as in OutlineRecipe
 };
 
 /// Agreement of a rule with recordings. A gust is a run of rows with at least half of the weakest wind that

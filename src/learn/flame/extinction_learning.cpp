@@ -143,13 +143,16 @@ Result<ExtinguishedRecordings> ExtinguishedRecordings::find(std::vector<Recordin
     if (auto ok = check(given_rule(recipe), 1, 0); !ok) return Error{"the rule of extinction: " + ok.error().message};
   }
   ExtinguishedRecordings out;
+  out.pixels_per_unit_ = outline.pixels_per_unit;
   const auto inputs = channels_with_role(recordings.front(), Role::kInput);
   if (recipe.source != ExtinctionSource::kNone && !inputs.empty()) {
     const bool named =
         outline.inputs && !outline.inputs->empty() && find_channel(recordings.front(), outline.inputs->front());
     out.input_ = named ? outline.inputs->front() : recordings.front().channels[inputs.front()].name;
+    const bool flicker = outline.inputs && outline.inputs->empty();
     for (const Recording& recording : recordings) {
-      auto found = find_blow_outs(recording, out.input_);
+      const bool unheard = flicker && !find_channel(recording, out.input_);
+      auto found = unheard ? Result(std::vector<BlowOut>()) : find_blow_outs(recording, out.input_);
       if (!found) return found.error();
       out.burning_.push_back(without_blow_outs(recording, *found));
       out.found_.push_back(*std::move(found));
@@ -164,7 +167,7 @@ Result<ExtinguishedRecordings> ExtinguishedRecordings::find(std::vector<Recordin
 std::vector<ExtinctionEvidence> ExtinguishedRecordings::evidence(double scale, double vanishing) const {
   std::vector<ExtinctionEvidence> out;
   for (std::size_t k = 0; k < recordings_.size(); ++k) {
-    out.push_back({&recordings_[k], input_, scale, found_[k], vanishing});
+    out.push_back({&recordings_[k], input_, scale, found_[k], vanishing, pixels_per_unit_});
   }
   return out;
 }

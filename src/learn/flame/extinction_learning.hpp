@@ -42,7 +42,8 @@ class ExtinguishedRecordings {
  private:
   std::vector<ExtinctionEvidence> evidence(double scale, double vanishing) const;
 
-  std::string input_;  // empty: no input
+  std::string input_;           // empty: no input
+  double pixels_per_unit_ = 0;  // as in OutlineRecipe
   std::vector<Recording> recordings_;
   std::vector<Recording> burning_;
   std::vector<std::vector<BlowOut>> found_;

@@ -44,9 +44,10 @@ class Shapes {
     layout_ = *outline_layout(recording);
     const OutlineInput wind{.name = evidence.input, .scale = evidence.scale};
     const Recording burning = without_blow_outs(recording, evidence.blow_outs);
+    const double given = evidence.pixels_per_unit;
     units_ =
         to_model_units(layout_.knots == view.knots ? recording : with_knots(recording, layout_, view.knots).recording,
-                       layout_, resting_height_pixels(burning, layout_, {&wind, 1}));
+                       layout_, given > 0 ? given : resting_height_pixels(burning, layout_, {&wind, 1}));
   }
 
   // Appends the components of a row's outline, enlarged to full size. Without an outline repeats the last ones, or 0.

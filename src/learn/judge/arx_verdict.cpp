@@ -105,7 +105,7 @@ std::string plays_otherwise(const VerdictEvidence& evidence, const ArxSummary& s
     if (summary.free_run_fit_percent[i] < kMinSimulationFit || lost <= kMaxLostInPlay) continue;
     return "played in single precision, as the model is stored, '" + evidence.channels.outputs[i] + "' fits " +
            fit_text(summary.played_fit_percent[i]) + " and not " + fit_text(summary.free_run_fit_percent[i]) +
-           ": large coefficients cancel" + cause_in(evidence);
+           ": large coefficients cancel, or it moves far from 0" + cause_in(evidence);
   }
   return "";
 }

@@ -233,7 +233,9 @@ Usable verdict_of(const Summary& summary, const Choice& choice, double needed, b
                        " rows, too few for its coefficients; ask for fewer modes"};
   }
   if (summary.mode_rows.size() == 1) {
-    return {false, "further modes predict held-out rows no better than one does: use an ARX model"};
+    return {false, choice.candidates.size() < 2
+                       ? "a single mode was fitted and no further ones were tried: use an ARX model, or ask for modes"
+                       : "further modes predict held-out rows no better than one does: use an ARX model"};
   }
   if (!(choice.gain > kSureGain * choice.gain_std_error)) {
     return {false, "a single ARX model predicts held-out rows as well: use that, or other orders"};

@@ -135,7 +135,7 @@ Result<OutlineTrial> try_outline(const Model& model, const PreparedOutlines& pre
   std::vector<std::size_t> ends;
   const auto recorded = outlines(prepared.recordings, prepared, kMaxRecorded, &out.crossed_recorded, &ends);
   out.outside = outside_share(recorded, ends, outlines({&play->recording, 1}, prepared, kMaxPlayed, &out.crossed));
-  const FidelityOptions how{.channels = prepared.channels.outputs, .max_windows = kWindows};
+  const FidelityOptions how{.channels = prepared.channels.outputs, .max_windows = kWindows, .motion_only = true};
   if (const auto found = fidelity({&real, 1}, {&play->recording, 1}, how)) {
     if (std::isfinite(found->energy_distance.value)) out.half_second = found->energy_distance;
     if (std::isfinite(found->long_motion.value)) out.two_seconds = found->long_motion;

@@ -1,7 +1,10 @@
 #include "learn/report/report_values.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
+#include "record/number_text.hpp"
 #include "wisp/learn/arx_recipe.hpp"
 
 namespace wisp::arx {
@@ -91,7 +94,17 @@ ReportSection cost_section(const Cost& cost) {
 void complete(Fit& fit) {
   fit.model.training.program = "wisp " WISP_VERSION;
   for (std::string& source : fit.model.training.sources) source = std::filesystem::path(source).filename().string();
+  for (const Output& output : fit.model.outputs) {
+    const double range = output.highest - output.lowest;
+    const double step = std::max(std::abs(output.lowest), std::abs(output.highest)) * 0x1p-23;
+    if (std::holds_alternative<PlainView>(fit.model.view) && range > 0 && step > 0.01 * range)
+      fit.report.warnings.push_back("output '" + output.name + "' moves by " + number_text(range, 3) +
+                                    " far from 0, where play, in single precision, has steps of " +
+                                    number_text(step, 2) + ": subtract its level");
+  }
   const auto cost = count_operations(fit.model);
+  if (!cost && fit.report.verdict && fit.report.verdict->usable)
+    fit.report.warnings.push_back("the model cannot be played: " + cost.error().message);
   if (!cost) return;
   // Runtimes with little memory read the cost from the model instead of counting.
   fit.model.training.multiply_adds_per_frame = cost->multiply_adds_per_frame;

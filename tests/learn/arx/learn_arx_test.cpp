@@ -12,8 +12,10 @@
 namespace wisp::learn_arx_test {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 // The recipe that describes made_system().
 ArxRecipe recipe_of_made() {
@@ -287,6 +289,56 @@ TEST(LearnArx, PlotsOfAPartOfARecordingHaveTheTimeOfTheWhole) {
   const ReportSeries& measured = *series_of(*report, "measured.0");
   EXPECT_EQ(measured.x.size(), 400U);
   EXPECT_DOUBLE_EQ(measured.x.front(), 1500 / whole.rate_hz);
+}
+
+TEST(LearnArx, PlotsOfARecordingAtAnotherLevelAreAtItsOwnLevel) {
+  std::vector<Recording> recordings{record_system(made_system(), 600, 1), record_system(made_system(), 600, 2)};
+  std::vector<double>& high = recordings[1].channels[*find_channel(recordings[1], "y1")].samples;
+  for (double& y : high) y += 100;
+  const auto fit = learn_arx(recordings, recipe_of_made());
+  ASSERT_TRUE(fit) << fit.error().message;
+  const auto report = validate_arx(fit->model, recordings[1], {.steps = {1, kFreeRun}});
+  ASSERT_TRUE(report) << report.error().message;
+  EXPECT_NEAR(series_of(*report, "measured.0")->y.back(), high.back(), 1e-9);
+  for (const char* id : {"predicted.0", "predicted.0.low", "simulated.0"})
+    EXPECT_NEAR(series_of(*report, id)->y.back(), high.back(), 5) << id;
+}
+
+TEST(LearnArx, AModelInUnitsBeyondThoseOfPlayIsReportedAsSuch) {
+  Recording recording = record_system(made_system(), 1000, 1);
+  const auto unplayable = Contains(HasSubstr("the model cannot be played"));
+  EXPECT_THAT(learn(recording, recipe_of_made())->report.warnings, Not(unplayable));
+  for (Channel& channel : recording.channels) {
+    for (double& sample : channel.samples) sample *= 1e13;
+  }
+  const auto fit = learn(recording, recipe_of_made());
+  ASSERT_TRUE(fit) << fit.error().message;
+  EXPECT_THAT(fit->report.warnings, unplayable);
+}
+
+TEST(LearnArx, AnOutputThatMovesTooFarFromZeroForSinglePrecisionIsNamed) {
+  Recording recording = record_system(made_system(), 1000, 1);
+  const auto coarse = Contains(HasSubstr("output 'y2' moves by"));
+  EXPECT_THAT(learn(recording, recipe_of_made())->report.warnings, Not(coarse));
+  for (double& y : recording.channels[3].samples) y += 1e8;
+  const auto fit = learn(recording, recipe_of_made());
+  ASSERT_TRUE(fit) << fit.error().message;
+  EXPECT_THAT(fit->report.warnings, coarse);
+}
+
+TEST(LearnArx, RecordingsWhoseUnitsDifferAreNamed) {
+  std::vector<Recording> recordings(3, record_system(made_system(), 600, 1));
+  Channel &first = recordings[0].channels[2], &second = recordings[1].channels[2];
+  recordings[1].source = "second";
+  first.unit = second.unit = "m";
+  auto fit = learn(recordings, recipe_of_made());
+  ASSERT_TRUE(fit) << fit.error().message;
+  EXPECT_EQ(fit->model.outputs[0].unit, "m");
+  EXPECT_THAT(fit->report.warnings, Not(Contains(HasSubstr(" is in "))));
+  second.unit = "cm";
+  fit = learn(recordings, recipe_of_made());
+  ASSERT_TRUE(fit) << fit.error().message;
+  EXPECT_THAT(fit->report.warnings, Contains(HasSubstr("second: 'y1' is in cm, in the first recording in m")));
 }
 
 TEST(LearnArx, ValidationRefusesAStrangerAndStepsOutOfRange) {

@@ -69,6 +69,13 @@ TEST(Focus, TheKernelIsChosenWhereTheOrdersMissTheResponse) {
   }
 }
 
+TEST(Focus, ManyShortRecordingsHaveRowsToHoldOut) {
+  std::vector<Recording> brief;
+  for (unsigned seed = 0; seed < 40; ++seed) brief.push_back(late_answer(300, seed));
+  const auto fit = focused(brief, ArxFocus::kSimulation, {.orders = ringing(0).orders});
+  EXPECT_TRUE(fit.outcome.changed) << fit.outcome.reason;
+}
+
 // Whichever door a model comes through, its figures are the same: the effective number of coefficients, not their
 // count.
 TEST(Focus, TheChosenKernelHasTheSummaryOfTheSameKernelAskedFor) {

@@ -155,6 +155,7 @@ TEST(OrderSearch, SaysWhatIsWrong) {
   EXPECT_THAT(complaint({.na = {3, 2}}), HasSubstr("the range of na is 3:2"));
   EXPECT_THAT(complaint({.na = {1, 4000}, .nb = {1, 4000}}), HasSubstr("more than a million candidates"));
   EXPECT_THAT(complaint({.by = OrderCriterion::kValidation}), HasSubstr("without validation recordings"));
+  EXPECT_THAT(complaint({.steps = 200000}), HasSubstr("200000 steps ahead"));
   EXPECT_THAT(complaint({.na = {1, 20}, .nb = {1, 1}, .nk = {0, 0}}),
               HasSubstr("candidate na 20, nb 1, nk 0 has 42 coefficients an output and only 40 rows"));
 }

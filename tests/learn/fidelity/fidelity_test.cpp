@@ -92,6 +92,16 @@ TEST(Fidelity, RatesMustAgree) {
   EXPECT_NE(result.error().message.find("resonance 2: has 25"), std::string::npos);
 }
 
+TEST(Fidelity, MotionAloneHasTheSameDistancesAndNoOtherLongFigures) {
+  const std::vector real{resonance(900, 5, 1)};
+  const std::vector made{resonance(900, 5, 2)};
+  const auto all = fidelity(real, made), motion = fidelity(real, made, {.motion_only = true});
+  ASSERT_TRUE(std::isfinite(all->long_motion.value) && std::isfinite(all->long_spectra.value));
+  EXPECT_EQ(motion->long_motion.value, all->long_motion.value);
+  EXPECT_EQ(motion->energy_distance.value, all->energy_distance.value);
+  EXPECT_TRUE(std::isnan(motion->long_spectra.value) && std::isnan(motion->verbatim_seconds));
+}
+
 TEST(Fidelity, TheSameSeedGivesTheSameFigures) {
   const std::vector real{resonance(200, 5, 1)};
   const std::vector made{resonance(200, 5, 2)};

@@ -60,6 +60,8 @@ TEST(BlowOuts, LostRowsAreNone) {
   std::fill(lost.rows.begin() + 1000, lost.rows.begin() + 1100, 1);
   made.recording.flags.push_back(lost);
   EXPECT_TRUE(find_blow_outs(made.recording, "wind")->empty());
+  for (std::size_t row = 1000; row < 1100; row += 2) made.recording.flags.back().rows[row] = 0;
+  EXPECT_EQ(find_blow_outs(made.recording, "wind")->size(), 1U);
 }
 
 TEST(BlowOuts, AFlameThatComesBackByItselfDidNotGoOut) {
@@ -80,6 +82,25 @@ TEST(BlowOuts, AGlimpseOfTheEmberDoesNotEndThem) {
   ASSERT_EQ(found->size(), 1U);
   EXPECT_EQ(found->front().gone, 1000U);
   EXPECT_EQ(found->front().back, 1100U);
+}
+
+TEST(BlowOuts, AnOutlineThatEveryThirdRowLacksDidNotGoOut) {
+  auto made = made::blow_out_recording({.every = 0});
+  auto& wind = wind_of(made.recording);
+  std::fill(wind.begin() + 900, wind.begin() + 1010, 30.0);
+  for (std::size_t row = 1000; row < 1100; row += 3) blank(made.recording, row, row + 1);
+  EXPECT_TRUE(find_blow_outs(made.recording, "wind")->empty());
+}
+
+TEST(BlowOuts, AnEpisodeThatBeginsWithoutAFlameDoesNotBeginWithABlowOut) {
+  auto made = made::blow_out_recording({.every = 0});
+  auto& wind = wind_of(made.recording);
+  std::fill(wind.begin() + 900, wind.begin() + 1010, 30.0);
+  blank(made.recording, 1000, 1100);
+  ASSERT_TRUE(find_blow_outs(made.recording, "wind")->front().blown);
+  made.recording.episode_ids.assign(made.recording.rows(), 0);
+  std::fill(made.recording.episode_ids.begin() + 1000, made.recording.episode_ids.end(), 1);
+  EXPECT_FALSE(find_blow_outs(made.recording, "wind")->front().blown);
 }
 
 TEST(BlowOuts, ThatLastToTheEndOfTheRecordingAreFound) {

@@ -107,6 +107,22 @@ TEST(FlameSizes, ShapesAreTheRecordedOutlines) {
   }
 }
 
+// Components are relative to the spread of the outline, so that they do not depend on the unit.
+TEST(FlameSizes, ShapesOfReIgnitionHaveTheUnitThatIsGiven) {
+  const Recording recording = decay_and_re_ignition(0.2, 0.5, 2);
+  FlameRecipe recipe;
+  recipe.inputs = {"wind"};
+  const auto own = learn_outline({&recording, 1}, recipe);
+  ASSERT_TRUE(own) << own.error().message;
+  recipe.pixels_per_unit = std::get<OutlineView>(own->model.view).pixels_per_unit / 2;
+  const auto given = learn_outline({&recording, 1}, recipe);
+  ASSERT_TRUE(given) << given.error().message;
+  const std::vector<double>& scale = own->model.extinction->catching.scale;
+  ASSERT_EQ(given->model.extinction->catching.scale.size(), scale.size());
+  ASSERT_FALSE(scale.empty());
+  EXPECT_NEAR(given->model.extinction->catching.scale[0], scale[0], 0.05 * scale[0]);
+}
+
 TEST(FlameSizes, WhatVanishesFromOneRowToTheNextIsSeenNoLonger) {
   const Recording recording = made::blow_out_recording({.shortest = 0.2, .seed = 3}).recording;
   const ExtinctionEvidence seen = evidence_of(recording);

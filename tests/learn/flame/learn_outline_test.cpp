@@ -254,6 +254,13 @@ TEST(LearnOutline, AGivenRuleOfASilentInputNamesTheInput) {
   EXPECT_THAT(fit.error().message, HasSubstr("wind"));
 }
 
+TEST(LearnOutline, FlickerAloneIsLearnedFromFilmsOfWhichOneHasNoSound) {
+  FlameRecipe recipe;
+  recipe.inputs.emplace();
+  const auto fit = learn_outline(std::vector{windy(), made::outline_recording({.rows = 900, .seed = 2})}, recipe);
+  EXPECT_TRUE(fit) << fit.error().message;
+}
+
 TEST(LearnOutline, CanBeStopped) {
   const auto stopped =
       learn_outline(std::vector{windy()}, {}, [](std::string_view, double share) { return share < 0.5; });

@@ -63,6 +63,15 @@ TEST(LearnSwitched, ModesForWhichBriefTakesAreTooFewAreRefused) {
   EXPECT_FALSE(learn_switched({&takes, 1}, recipe_of_made()));
 }
 
+TEST(LearnSwitched, ASingleModeThatWasRequestedIsNotComparedWithModesThatWereNotTried) {
+  const Recording recording = made_chain(1000, 1).recording;
+  SwitchedRecipe recipe = recipe_of_made();
+  recipe.modes = 1;
+  const auto fit = learn_switched({&recording, 1}, recipe);
+  ASSERT_TRUE(fit) << fit.error().message;
+  EXPECT_THAT(fit->report.verdict->reason, HasSubstr("no further ones were tried"));
+}
+
 TEST(LearnSwitched, StopsBetweenStarts) {
   const Recording recording = made_chain(1000, 1).recording;
   int calls = 0;

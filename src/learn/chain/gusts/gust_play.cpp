@@ -176,7 +176,10 @@ struct Angles {
   std::vector<double> all;
   std::vector<double> clear;
 
-  GustDirection direction() const { return {median(all), mean(all), mean(clear)}; }
+  GustDirection direction() const {
+    if (all.empty()) return {kMissing, kMissing, kMissing};
+    return {median(all), mean(all), clear.empty() ? kMissing : mean(clear)};
+  }
 };
 
 struct FitSums {
@@ -283,6 +286,8 @@ Result<void> check(const Model& model, const GustPairs& pairs) {
     return Error{pairs.source + ": has " + std::to_string(pairs.windy.rate_hz) + " rows a second, the model " +
                  std::to_string(model.rate_hz) + ": resample the recording"};
   }
+  if (pairs.calm.has_orientation != (chain->motion == ChainMotion::kPose))
+    return Error{pairs.source + ": either its calm twin or the model has orientation, expected both or neither"};
   return {};
 }
 

@@ -67,7 +67,7 @@ struct GustFit {
 /// Learns from the first `gusts` gusts. Errors: fewer than 2 of them have wind.
 Result<GustFit> learn_gusts(const GustPairs& pairs, std::size_t gusts);
 
-/// Horizontal angles between the recorded and the played mean displacement at the end, degrees.
+/// Horizontal angles between the recorded and the played mean displacement at the end, degrees; NaN over no gusts.
 struct GustDirection {
   double median = 0;
   double mean = 0;        ///< over all gusts, also small displacements, whose direction is random
@@ -106,7 +106,7 @@ struct GustPlay {
 };
 
 /// Plays the gusts of a windy recording from index `first` on, clone by clone, with and without their wind.
-/// Errors: the model is not a chain with a gust response; rates that differ; no gust with wind.
+/// Errors: the model is not a chain with a gust response; rates that differ; orientation in one alone; no gust's wind.
 Result<GustPlay> play_gusts(const Model& model, const GustPairs& pairs, std::size_t first, std::uint64_t seed);
 
 ReportSection gusts_section(const GustPlayFigures& figures);

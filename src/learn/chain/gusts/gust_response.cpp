@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 namespace wisp::chain {
 namespace {
@@ -49,6 +50,13 @@ Result<std::array<const std::vector<double>*, 3>> wind_channels(const Recording&
     wind[axis] = &windy.channels[*channel].samples;
   }
   return wind;
+}
+
+// Index of the episode with a row, and the row's index in it.
+std::pair<std::size_t, std::size_t> place_in(std::span<const Episode> all, std::size_t row) {
+  std::size_t k = 0;
+  while (all[k].end <= row) ++k;
+  return {k, row - all[k].begin};
 }
 
 constexpr int kRefinements = 24;
@@ -204,6 +212,12 @@ Result<GustPairs> gust_pairs(const Recording& windy, const Recording& calm) {
     return Error{windy.source + " and " + calm.source + ": have " + std::to_string(pieces) + " and " +
                  std::to_string(still->pieces.size()) + " episodes, expected as many of each, " +
                  std::to_string(clones) + " for each of at least 4 gusts"};
+  }
+  const auto in_windy = episodes(windy), in_calm = episodes(calm);
+  for (std::size_t k = 0; k < pieces; ++k) {
+    if (place_in(in_windy, blown->pieces[k].first_row) == place_in(in_calm, still->pieces[k].first_row)) continue;
+    return Error{row_name(windy, blown->pieces[k].first_row) + ": a stretch begins here that has no twin in " +
+                 calm.source + ": fill in the missing rows of both"};
   }
   return GustPairs{std::move(*blown), std::move(*still), *wind, clones, windy.source};
 }

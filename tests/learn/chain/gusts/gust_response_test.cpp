@@ -102,6 +102,15 @@ TEST(GustResponse, TwinsOfTwoRatesAreRefused) {
   EXPECT_FALSE(gust_pairs(pairs.windy, pairs.calm));
 }
 
+TEST(GustResponse, StretchesThatGapsSetAgainstOtherFallsAreRefused) {
+  MadePairs pairs = made_pairs(0.85, 0.12);
+  pairs.windy.channels[0].samples[3 * 120 + 60] = std::nan("");
+  pairs.calm.channels[0].samples[7 * 120 + 60] = std::nan("");
+  const auto both = gust_pairs(pairs.windy, pairs.calm);
+  ASSERT_FALSE(both);
+  EXPECT_THAT(both.error().message, HasSubstr("row 422: a stretch begins here that has no twin"));
+}
+
 TEST(GustResponse, PairsThatDoNotMatchAreErrors) {
   const MadePairs pairs = made_pairs(0.8, 0.2);
   EXPECT_THAT(gust_pairs(pairs.windy, slice(pairs.calm, 0, 120 * 5)).error().message, HasSubstr("24 and 5"));
@@ -127,6 +136,7 @@ TEST(GustPlay, ABankThatIsBlownAtGoesWhereTheWindTookWhatWasRecorded) {
   EXPECT_LT(play->figures.direction.mean, 5);
   EXPECT_FALSE(play->figures.diverges);
   EXPECT_LT(play->figures.left_after, 0.01);
+  EXPECT_TRUE(std::isnan(play->figures.halves_direction.median));  // one clone has no halves
   ASSERT_EQ(play->scenes.size(), 2U);
   EXPECT_EQ(play->scenes[0].recorded.size(), 1U);
   EXPECT_EQ(play->scenes[0].recorded[0].size(), play->scenes[0].blows.size());
@@ -157,6 +167,16 @@ TEST(GustPlay, AModelWithoutAResponseIsAnError) {
   std::get<ChainModel>(model.dynamics).gust.reset();
   model.inputs.clear();
   EXPECT_THAT(played(model, pairs).error().message, HasSubstr("no response"));
+}
+
+TEST(GustPlay, PairsWithoutTheModelsOrientationAreAnError) {
+  MadePairs pairs = made_pairs(0.85, 0.12, 6);
+  const Model model = blown_model(pairs);
+  for (Recording* one : {&pairs.windy, &pairs.calm})
+    one->channels.erase(one->channels.begin() + 3, one->channels.begin() + 7);
+  const auto play = played(model, pairs);
+  ASSERT_FALSE(play);
+  EXPECT_THAT(play.error().message, HasSubstr("orientation"));
 }
 
 }  // namespace
