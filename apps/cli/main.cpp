@@ -1,6 +1,5 @@
-// The program `wisp`: parses the command line and runs one command of the table.
-//
-// Exit status: 0 success, 1 bad data or a bad file, 2 wrong usage.
+// The program `wisp`: parses the command line and runs one command of the table. Exit status: 0 success, 1 bad data or
+// a bad file, 2 wrong usage.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -75,8 +75,7 @@ inline float towards(float from, float to, float seconds, float within) {
   return to + (from - to) * std::exp(-seconds / within);
 }
 
-/// Wind from keys: the arrows blow while they are held, a puff is strong and short. Positive blows to the right; 1 is a
-/// strong gust.
+/// Wind from keys: arrows blow while held, a puff is strong and short. Positive blows to the right; 1: a strong gust.
 class KeyWind {
  public:
   /// Sets the direction of the held arrows: −1 left, 0 none or both, 1 right.

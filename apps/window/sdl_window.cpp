@@ -44,8 +44,7 @@ class Microphone {
   Microphone(const Microphone&) = delete;
   Microphone& operator=(const Microphone&) = delete;
 
-  // Opens the system's default microphone and the ear for it.
-  // Errors: there is none, or access is denied.
+  // Opens the system's default microphone and the ear for it. Errors: there is none, or access is denied.
   Result<void> open(Ear& ear) {
     close();
     const auto none = [](const std::string& why) {

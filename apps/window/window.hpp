@@ -75,8 +75,7 @@ inline std::chrono::nanoseconds time_of_frame(int frame) {
 /// Timed input to a player from files: a script's events, a sound file.
 class Course {
  public:
-  /// Opens the files in the options, and the player's ear for the sound.
-  /// Errors: an invalid file, or the folder for pictures cannot be created.
+  /// Opens the options' files and the player's ear. Errors: an invalid file, a folder for pictures that cannot be made.
   static Result<Course> open(const PlayOptions& options, Player& player);
 
   /// Delivers everything up to `seconds` since the start: events to `deliver`, sound to the player.
@@ -114,9 +113,8 @@ Result<PlayReport> play_without_display(const PlayOptions& options);
 /// Returns whether this build has a window.
 bool has_window();
 
-/// Runs in a window until it is closed, or until the script ends it. With a script, time advances in frames of 1/60 s
-/// and pictures are read back from the window.
-/// Errors: those of play_without_display(); no display; no window in this build.
+/// Runs in a window until it is closed or the script ends it. With a script, time advances in frames of 1/60 s and
+/// pictures are read back from the window. Errors: as play_without_display(); no display; no window in this build.
 Result<PlayReport> play_in_window(const PlayOptions& options);
 
 }  // namespace wisp::window

@@ -239,7 +239,7 @@ Result<Captured> capture_views(std::span<const std::filesystem::path> films, std
                    "; give a film of the same time from another side"};
     auto film = capture(films[k], options, progress);
     if (!film) return film.error();
-    std::ranges::move(film->report.warnings, std::back_inserter(warnings));
+    std::move(film->report.warnings.begin(), film->report.warnings.end(), std::back_inserter(warnings));
     if (!options.curve) options.curve = curve_of(film->recording);
     FilmedView view{azimuths[k], std::move(film->recording), {}, 0};
     auto reader = VideoReader::open(films[k], {.rate_hz = options.rate_hz, .frames = {}});

@@ -1,7 +1,6 @@
 #pragma once
-// Owning types for Cairo, and contexts that draw directly into an Image's pixels.
-//
-// Private names of this layer are in namespace wisp::drawing, so that they do not collide with those of other layers.
+// Owning types for Cairo, and contexts that draw directly into an Image's pixels. Private names of this layer are in
+// namespace wisp::drawing, so that they do not collide with those of other layers.
 
 #include <cairo.h>
 #include <memory>

@@ -55,9 +55,8 @@ inline std::uint32_t dithered(float code, float dither) {
   return static_cast<std::uint32_t>(std::min(255.0F, code + dither * (1 - 2 * kTableError) + kTableError));
 }
 
-/// Returns ordered noise in [0, 1) that spreads rounding over neighbouring pixels: interleaved gradient noise (J.
-/// Jimenez, Next Generation Post Processing in Call of Duty: Advanced Warfare, SIGGRAPH 2014), in fixed point. The same
-/// for every frame, so that video does not flicker.
+/// Returns noise in [0, 1), the same in every frame so that video does not flicker: interleaved gradient noise (J.
+/// Jimenez, Next Generation Post Processing in Call of Duty: Advanced Warfare, SIGGRAPH 2014) in fixed point.
 inline float dither_at(int x, int y) {
   const std::uint32_t along = static_cast<std::uint32_t>(x) * 288237660U + static_cast<std::uint32_t>(y) * 25070368U;
   const auto spread = static_cast<std::uint32_t>(static_cast<std::uint64_t>(along) * 888907844U >> 24);

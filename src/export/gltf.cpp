@@ -55,7 +55,6 @@ class Buffer {
     return close(std::move(accessor));
   }
 
-  /// Adds indices of vertices.
   int add_indices(std::span<const std::uint16_t> indices) {
     Accessor accessor{bytes_.size(), indices.size() * 2, indices.size(), Shape::kScalar, kIndices, {}, {}};
     for (const std::uint16_t index : indices) append(bytes_, index, 2);
@@ -138,7 +137,6 @@ std::vector<std::byte> Buffer::file(std::string json) const {
 
 using namespace exporting;
 
-// A mesh's accessors and properties.
 struct Mesh {
   int positions = 0, normals = -1, coordinates = -1, indices = 0;
   std::vector<int> targets;
@@ -154,7 +152,6 @@ struct Track {
   int translation = -1, rotation = -1, weights = -1;
 };
 
-// The contents of a file.
 struct Document {
   Buffer buffer;
   Mesh mesh;

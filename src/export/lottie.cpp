@@ -1,5 +1,4 @@
-// Lottie animations: the specification of the Lottie Animation Community, version 1.0.1, sections "Layers", "Shapes"
-// and "Properties".
+// Lottie animations: Lottie Animation Community, specification 1.0.1, sections "Layers", "Shapes" and "Properties".
 
 #include <algorithm>
 #include <array>
@@ -75,8 +74,7 @@ void write_path(const std::vector<double>& knots, std::span<const float> control
   json.value(true, "c");
 }
 
-// Writes the path with one key per frame, linear between them. A key has the values at its start and end, for old
-// players; the last key has only its time.
+// Writes the path with linear keys, one per frame, each with start and end values for old players, the last with none.
 void write_keys(const OutlineView& view, const Take& take, const Frame& frame, JsonText& json) {
   json.object().value("sh", "ty").value("path", "nm").object("ks").value(1, "a").list("k");
   const std::size_t last = take.frames - (take.loop || take.frames == 1 ? 0 : 1);

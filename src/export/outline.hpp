@@ -50,10 +50,9 @@ Result<void> check_take(const Model& model, const Take& take);
 
 /// Replaces rows of an ARX or switched model's outputs by the periodic orbit under their own shocks: adds to each row
 /// the model's free response to the difference of the two ends, summed over all periods. `rows` begin lags − 1 rows
-/// before the loop's first frame and end with the frame that equals the first; `mode` is the mode of each row (switched
-/// models). Returns false if the sum does not converge.
-///
-/// Precondition: rows.size() == (lags + frames) × outputs, and lags == output_lags(model).
+/// before the loop's first frame and end with the frame that equals the first; `mode`: each row's mode (switched
+/// models). Returns false if the sum diverges. Precondition: rows.size() == (lags + frames) × outputs, lags ==
+/// output_lags(model).
 bool close_orbit(const Model& model, std::span<const std::size_t> mode, std::size_t lags, std::vector<double>& rows);
 
 /// Returns the longest lag of an output in an ARX or switched model, at least 1.
@@ -66,9 +65,8 @@ struct WalkLoop {
 
 /// Plays banks of one chain until an instance returns to a row of a segment after exactly `frames` steps, and rotates
 /// its walk evenly so that the frame after the last one has the attitude and the velocity of the first. Returns nothing
-/// if no walk returns.
-///
-/// Precondition: the model is a valid chain with stored segments; inputs.size() == model.inputs.size().
+/// if no walk returns. Precondition: the model is a valid chain with stored segments; inputs.size() ==
+/// model.inputs.size().
 std::optional<WalkLoop> find_walk_loop(const Model& model, std::size_t frames, std::uint64_t seed,
                                        const std::vector<float>& inputs);
 

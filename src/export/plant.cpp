@@ -23,8 +23,7 @@ std::size_t largest_lag(const ArxOrders& orders, int i) {
   return static_cast<std::size_t>(most);
 }
 
-// Return the coefficients at lags 0, 1, 2, … (at least `size` of them) of output j or input k in row i of
-// A(q) y = B(q) u.
+// Return the coefficients at lags 0, 1, 2, … (at least `size`) of output j or input k in row i of A(q) y = B(q) u.
 std::vector<double> lags_of_output(const ArxModel& arx, int i, int j, std::size_t size) {
   std::vector<double> lags{i == j ? 1.0 : 0.0};
   lags.insert(lags.end(), arx.a(i, j).begin(), arx.a(i, j).end());

@@ -53,7 +53,6 @@ Error went_out(double seconds) {
           " s in that input; what is exported burns: ask for less"};
 }
 
-// Returns a bank of the requested instances, after settling.
 Result<Bank> settled_bank(const Model& model, const TakeOptions& options) {
   auto bank = Bank::create(model, {.capacity = options.instances, .seed = options.seed});
   if (!bank) return bank;
@@ -132,8 +131,7 @@ Result<Take> orbit_take(const Model& model, const TakeOptions& options, Take tak
   return taken;
 }
 
-// Returns a model whose outputs are the components of an outline's shape: their dynamics are linear, whereas control
-// points are clamped.
+// Returns a model of the components of an outline's shape: their dynamics are linear; control points are clamped.
 Model model_of_components(const Model& model, const ShapeComponents& shape) {
   Model out = model;
   out.view = PlainView{};

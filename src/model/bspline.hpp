@@ -14,12 +14,10 @@ inline constexpr int kSplineDegree = 3;
 
 /// Returns the full knot vector of an open cubic B-spline with `points` control points, clamped at both ends
 /// (multiplicity 4 there), uniform between; parameters run over [0, 1]. Returns points + 4 ascending values.
-///
 /// Precondition: points >= 4.
 std::vector<double> uniform_knots(int points);
 
 /// Returns the full, clamped knot vector over [0, 1] with the given interior knots.
-///
 /// Precondition: `interior` is ascending and inside (0, 1).
 std::vector<double> clamped_knots(std::span<const double> interior);
 
@@ -34,9 +32,7 @@ struct BasisWeights {
 };
 
 /// Returns the basis functions at parameter s. Weights sum to 1.
-///
-/// Precondition: valid_knots(knots).
-/// Precondition: 0 <= s <= 1.
+/// Precondition: valid_knots(knots); 0 <= s <= 1.
 BasisWeights basis(std::span<const double> knots, double s);
 
 /// Returns the derivatives of the basis functions with respect to s; they sum to 0. Preconditions: those of basis().

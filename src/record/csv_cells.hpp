@@ -112,7 +112,6 @@ struct TimeStep {
 /// Determines the time step from the first rows, up to the first uneven step. Of all steps that agree with the written
 /// digits, selects the one with the fewest digits, as a step or as a rate: 0.033, 0.067, 0.100 give 30 rows per second.
 /// Nothing if the second time is not later. `resolution`: see resolution_of(); `seconds`: seconds per unit of time.
-///
 /// Precondition: two times or more.
 std::optional<TimeStep> step_of(const std::vector<double>& times, double resolution, double seconds);
 

@@ -17,21 +17,15 @@ namespace wisp {
 /// Errors: the attribute is not one number above 0.
 Result<std::optional<double>> one_rms(const Recording& recording, const std::string& input);
 
-/// Sets the attribute INPUT.one_rms.
-///
-/// Precondition: rms > 0.
+/// Sets the attribute INPUT.one_rms. Precondition: rms > 0.
 void set_one_rms(Recording& recording, const std::string& input, double rms);
 
 /// Returns the factor that rescales an input to 1 at sound level `rms`; 1 if the recording does not state its level.
-/// Errors: those of one_rms().
-///
-/// Precondition: rms > 0.
+/// Errors: those of one_rms(). Precondition: rms > 0.
 Result<double> factor_at(const Recording& recording, const std::string& input, double rms);
 
 /// Returns the recording with an input rescaled to 1 at sound level `rms`; unchanged if it has no such input, or does
-/// not state its level. Errors: those of one_rms().
-///
-/// Precondition: rms > 0.
+/// not state its level. Errors: those of one_rms(). Precondition: rms > 0.
 Result<Recording> heard_at(Recording recording, const std::string& input, double rms);
 
 }  // namespace wisp

@@ -1,8 +1,6 @@
 #pragma once
-// Counter-based random numbers, without carried state, equal for every standard library.
-//
-// Source: the mixing function is that of G. Steele, D. Lea & C. Flood, Fast splittable pseudorandom number generators
-// (2014), with D. Stafford's constants.
+// Counter-based random numbers, without carried state, equal for every standard library. The mixing function is that of
+// G. Steele, D. Lea & C. Flood, Fast splittable pseudorandom number generators (2014), with D. Stafford's constants.
 
 #include <cstdint>
 

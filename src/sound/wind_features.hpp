@@ -13,8 +13,7 @@
 
 namespace wisp::wind {
 
-/// Reduces one channel to the analysis rate: the mean of `box` samples, a low-pass, decimation by `decimation`. All
-/// channels of a stream run in step.
+/// Brings a channel to the analysis rate: mean of `box` samples, low-pass, decimation. A stream's channels run in step.
 template <class T>
 class Decimator {
  public:
@@ -204,13 +203,12 @@ class VoiceHistory {
   T before_ = T(0.0F);
 };
 
-/// Voicing and tone, from the normalised autocorrelation at lags of 1/400 to 1/70 s.
-///
-/// Voicing is the autocorrelation's maximum over lags in the last three hops (30 ms). Tone is the maximum over lags of
-/// its mean over 150 ms: noise averages out, chords remain, whose common period is too long for voicing. Both rise at
-/// once and decay with a time constant of 300 ms, to bridge the gaps between syllables and notes; in hops much softer
-/// than the 50 ms mean they decay more slowly, as that mean still consists of the earlier sound. Three hops' sums are
-/// stored, so that each hop computes only its own products.
+/// Voicing and tone, from the normalised autocorrelation at lags of 1/400 to 1/70 s. Voicing is the autocorrelation's
+/// maximum over lags in the last three hops (30 ms). Tone is the maximum over lags of its mean over 150 ms: noise
+/// averages out, chords remain, whose common period is too long for voicing. Both rise at once and decay with a time
+/// constant of 300 ms, to bridge the gaps between syllables and notes; in hops much softer than the 50 ms mean they
+/// decay more slowly, as that mean still consists of the earlier sound. Three hops' sums are stored, so that each hop
+/// computes only its own products.
 template <class T>
 class Voicing {
  public:

@@ -17,15 +17,13 @@ struct Section {
 
 /// Section design by the bilinear transform (R. Bristow-Johnson, Cookbook formulae for audio equalizer biquad filters).
 /// Uses only + − × ÷ and square root, so that designs are the same bits on every machine.
-///
 /// Precondition: 0 < frequency_hz < rate_hz / 2, q > 0.
 Section high_pass(double frequency_hz, double q, double rate_hz);
 Section low_pass(double frequency_hz, double q, double rate_hz);
 Section band_pass(double frequency_hz, double q, double rate_hz);
 
-/// Returns the taps of a linear-phase low-pass: windowed sinc (Hamming), with gain 1 at 0 Hz.
-///
-/// Precondition: taps >= 1, 0 < cutoff < 0.5 (as a share of the sample rate).
+/// Returns the taps of a linear-phase low-pass: windowed sinc (Hamming), with gain 1 at 0 Hz. Precondition: taps >= 1,
+/// 0 < cutoff < 0.5 (as a share of the sample rate).
 std::vector<float> windowed_sinc(int taps, double cutoff);
 
 /// Sine and cosine of an angle in turns, 0 to 1.

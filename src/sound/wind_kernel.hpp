@@ -185,8 +185,7 @@ class Kernel {
       const T voice = channel.bands.push(channel.decimator.value());
       channel.history.push(voice);
       // A level is the power of the voice band after a filter that rises above 300 Hz, to flatten wind's falling
-      // spectrum, so that a frame's level varies less. Below it is flat, for microphones that pass few high
-      // frequencies.
+      // spectrum, so that it varies less. Below it is flat, for microphones that pass few high frequencies.
       const T levelled = voice - T(d_.level_zero) * channel.before;
       channel.before = voice;
       frame_band_ = frame_band_ + levelled * levelled;

@@ -207,9 +207,8 @@ class Reference {
     end();
   }
 
-  /// Set the level of wind 1 from a guided calibration: 4 dB above a soft breath, 17 dB below a hard blow. With both
-  /// known, it is their mean if the blow gives the higher level, otherwise the breath's. Adaptation continues from
-  /// there.
+  /// Set the level of wind 1 by a guided calibration: 4 dB above a soft breath, 17 dB below a hard blow. With both:
+  /// their mean if the blow gives the higher level, otherwise the breath's. Adaptation continues from there.
   void set_soft(T gust_db) {
     soft_db_ = gust_db + T(kSoftDb);
     knows_soft_ = true;

@@ -54,8 +54,7 @@ float power_at(std::size_t turns, const std::vector<float>& sound, const Tables&
 /// Powers of narrow bands, one row per frame.
 class Spectra {
  public:
-  /// Computes powers in windows of 93 ms centred at `middles` (seconds). `channels`: differenced voice band of each
-  /// channel, at `rate_hz`.
+  /// Computes powers in 93 ms windows centred at `middles` (s). `channels`: differenced voice bands, at `rate_hz`.
   Spectra(const std::vector<std::vector<float>>& channels, double rate_hz, const std::vector<double>& middles) {
     const auto length = static_cast<std::size_t>(kWindowSeconds * rate_hz + 0.5);
     const double width_hz = rate_hz / static_cast<double>(length);

@@ -82,10 +82,9 @@ T heard_speed(T speed, const Observation<T>& seen, T floor_db) {
 }
 
 /// Bounds the live wind during foreign sound (heard, but unlike blowing). Other frames pass unchanged. In foreign ones
-/// the wind is at most its mean before the sound, which decays with a time constant of half a second.
-///
-/// The mean ends about 50 ms earlier, as detecting a voice takes time. Rapidly varying wind also sounds foreign for a
-/// few frames, so after blowing the speed still passes for as long as the blowing lasted, at most 80 ms.
+/// the wind is at most its mean before the sound, which decays with a time constant of half a second. The mean ends
+/// about 50 ms earlier, as detecting a voice takes time. Rapidly varying wind also sounds foreign for a few frames, so
+/// after blowing the speed still passes for as long as the blowing lasted, at most 80 ms.
 template <class T>
 class LiveBridge {
  public:

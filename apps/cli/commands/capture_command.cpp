@@ -18,8 +18,7 @@
 namespace wisp::cli {
 namespace {
 
-// Returns whether --output names a folder: there are several clips, the name ends in a slash, or the folder exists (so
-// that a wildcard may match a single clip).
+// Whether --output names a folder: several clips, a final slash, or it exists (a wildcard may match a single clip).
 bool goes_to_folder(const Arguments& arguments) {
   std::error_code none;
   const std::filesystem::path output(arguments.text("output"));

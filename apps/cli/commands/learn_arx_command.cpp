@@ -109,8 +109,7 @@ Result<ArxPart> part_of_tables(const ArxRecipe& recipe, const Arguments& argumen
 }
 
 // Merges the named part files. Errors: a file that cannot be read, is no part, is damaged, or is of another model than
-// the first (each with the file's name); a number of parts other than --expect; a flag that needs rows, or contradicts
-// the parts.
+// the first (each names the file); a number of parts other than --expect; a flag that needs rows or contradicts them.
 Result<ArxPart> merged_parts(const Arguments& arguments) {
   const auto settled = refuse(arguments, {"search", "range", "inputs", "outputs", "na", "nb", "nk", "coupling"},
                               "does not go with --merge: parts hold no rows, but channels and orders");

@@ -1,5 +1,4 @@
-// `wisp learn switched` learns several ARX modes switched by a Markov chain; `wisp learn flicker` learns such a model
-// of a flame's light, for lamps.
+// `wisp learn switched`: ARX modes switched by a Markov chain; `wisp learn flicker`: the same for flame light in lamps.
 
 #include "commands/commands.hpp"
 #include "flags/arx_flags.hpp"

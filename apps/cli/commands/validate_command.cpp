@@ -126,8 +126,7 @@ void add_pair(const Report& report, const std::string& figure, const char* secon
 // recorded and synthesized ones side by side, from the side and from above, and one of each with its events marked, the
 // synthesized one's segments coloured by mode. For gusts, as in the paper's figure 8: one row per gust, with the
 // recorded falls on the left and the model's on the right; thin lines are clones, thick ones their means, green where
-// the wind blows; dashed is the mean without wind.
-// Errors: the folder cannot be made, a file cannot be written.
+// the wind blows; dashed is the mean without wind. Errors: the folder cannot be made, a file cannot be written.
 Result<void> write_chain_figures(const std::filesystem::path& folder, const Report& report) {
   const std::pair<const char*, const char*> figures[] = {{"falls-side", "Falls seen from the side"},
                                                          {"falls-above", "Falls seen from above"},

@@ -13,19 +13,15 @@ namespace wisp::cli {
 
 class CandlePictures {
  public:
-  /// Creates pictures sized for the living instances of the model's bank.
-  ///
-  /// Precondition: bank.polyline_points() > 0 and bank.size() > 0.
+  /// Creates pictures for the bank's living instances. Precondition: bank.polyline_points() > 0 and bank.size() > 0.
   CandlePictures(const Model& model, const Bank& bank);
 
-  /// Creates pictures sized for `count` outlines of `points` points, without a bank.
-  ///
-  /// Precondition: the view is an outline, count > 0 and points >= 2.
+  /// Creates pictures sized for `count` outlines of `points` points, without a bank. Precondition: the view is an
+  /// outline, count > 0 and points >= 2.
   CandlePictures(const Model& model, int count, int points);
 
-  /// Lets draw() show the flame on the candle of a film, in the size of the film's view.
-  ///
-  /// Precondition: one outline, film.known(), and the film outlives the pictures.
+  /// Lets draw() show the flame on the candle of a film, in the size of the film's view. Precondition: one outline,
+  /// film.known(), and the film outlives the pictures.
   void draw_on(const FilmedFlame& film);
 
   int width() const { return width_; }

@@ -26,9 +26,7 @@ class FilmLook {
   explicit FilmLook(const FilmView& view);
 
   /// Learns from a frame's view and its captured outline, both in the view's pixels; without an outline learns the look
-  /// of the view when the flame is out.
-  ///
-  /// Precondition: the frame has the view's size, and an outline at least three points.
+  /// of the view without a flame. Precondition: the frame has the view's size, an outline at least three points.
   void learn(const Image& frame, std::span<const Point> outline);
 
   /// Computes what draw() needs, after the last frame.
@@ -39,9 +37,7 @@ class FilmLook {
 
   /// Draws the view with another outline burning in it; empty: none. `light`, 0 to 1, is the share of the flame's light
   /// that falls on the surroundings: at 0 they look as in frames without a flame or, if there were none, at a quarter
-  /// of their brightness.
-  ///
-  /// Precondition: known() and finish().
+  /// of their brightness. Precondition: known() and finish().
   Image draw(std::span<const Point> outline, float light = 1) const;
 
  private:

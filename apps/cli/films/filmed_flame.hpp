@@ -48,9 +48,8 @@ struct ViewSpace {
 class FilmedFlame {
  public:
   /// Creates a view, `height` pixels high, on outlines captured from a clip of `clip_size` (width and height in pixels,
-  /// 0: unknown). The view follows the flame's base only if the base moves, as with a hand-held camera.
-  ///
-  /// Precondition: height > 0, pixels_per_unit > 0.
+  /// 0: unknown). The view follows the flame's base only if the base moves, as with a hand-held camera. Precondition:
+  /// height > 0, pixels_per_unit > 0.
   FilmedFlame(const OutlineRows& captured, double pixels_per_unit, std::array<int, 2> clip_size, const ViewSpace& space,
               int height);
 
@@ -65,9 +64,7 @@ class FilmedFlame {
 
   const FilmView& view() const { return view_; }
 
-  /// Draws an outline, in model units, in the look of the clip. `light`: as in FilmLook::draw().
-  ///
-  /// Precondition: known().
+  /// Draws an outline, in model units, in the look of the clip. `light`: as in FilmLook::draw(). Precondition: known().
   Image draw(std::span<const Point> outline, float light = 1) const;
 
  private:

@@ -20,8 +20,7 @@ struct LeafFilmOptions {
   LeafStyle style{};
 };
 
-/// Checks that a film of that name can be written, before long work.
-/// Errors: the name does not end in .mp4, or its folder is missing or not writable.
+/// Checks a film's name before long work. Errors: it does not end in .mp4; its folder is missing or not writable.
 Result<void> check_film_name(const std::string& path);
 
 /// Draws the recording's episodes, one leaf each, and encodes them atomically.
@@ -35,9 +34,7 @@ struct LeafPanel {
 };
 
 /// Writes a film of one recording, or of several side by side, in equal shares of the width and each with at most 3/5
-/// of max_leaves. Errors: as write_leaf_film(); rates that differ.
-///
-/// Precondition: !panels.empty().
+/// of max_leaves. Errors: as write_leaf_film(); rates that differ. Precondition: !panels.empty().
 Result<void> write_leaf_films(const std::filesystem::path& path, std::span<const LeafPanel> panels,
                               const LeafFilmOptions& options, Terminal& terminal);
 

@@ -28,9 +28,8 @@ Recording recording_of(const Model& model, const Take& taken, double wind, const
 /// Returns a recording without rows: the inputs, then each instance's outputs (of several prefixed i0., i1., …).
 Recording played_channels(const Model& model, int instances, const std::string& seed);
 
-/// Converts a recording of several bodies to consecutive episodes, one per instance.
-///
-/// Precondition: the recording has played_channels() of that model.
+/// Converts a recording of several bodies to consecutive episodes, one per instance. Precondition: the recording has
+/// played_channels() of that model.
 Recording one_after_the_other(const Recording& side_by_side, const Model& model, int instances,
                               const std::string& seed);
 

@@ -84,8 +84,7 @@ PlotSheet spectrum_sheet(const Report& report) {
 
 // Writes residual standard deviations per control point with their 95 % intervals, and the series of the report of
 // validate_outline(): tip and inputs over time, spectra of the tip; each as PNG and SVG, into a folder that is created
-// if missing.
-// Errors: a file cannot be written.
+// if missing. Errors: a file cannot be written.
 Result<void> write_validation_figures(const fs::path& folder, const Model& model, const Report& report) {
   if (auto ok = write_figure(folder, "residual-noise", residual_sheet(model)); !ok) return ok;
   if (auto ok = write_figure(folder, "tip", time_sheet(report)); !ok) return ok;

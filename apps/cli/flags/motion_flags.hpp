@@ -20,11 +20,8 @@ Result<std::vector<std::string>> motion_columns(const Arguments& arguments);
 /// `rate_hz` is used if neither flag nor table states the rate. A time column is kept, so that uneven time is detected.
 CsvOptions motion_table(const Arguments& arguments, double rate_hz = 0);
 
-/// Renames the columns of a recording to those that learning expects: pos.x, pos.y, pos.z, q.w, q.x, q.y, q.z.
-/// Returns the recording unchanged if neither flag is given.
-/// Errors: a missing column.
-///
-/// Precondition: motion_columns() has no error.
+/// Renames a recording's columns as learning expects: pos.x, pos.y, pos.z, q.w, q.x, q.y, q.z; without either flag,
+/// returns it unchanged. Errors: a missing column. Precondition: motion_columns() has no error.
 Result<Recording> as_motion(Recording recording, const Arguments& arguments);
 
 }  // namespace wisp::cli

@@ -49,8 +49,7 @@ Flag flag_of(const Value& value, const FieldTraits& traits, const char* help) {
   return flag;
 }
 
-/// Sets a field from its flag.
-/// Errors: an event of the wrong form.
+/// Sets a field from its flag. Errors: an event of the wrong form.
 template <FlagValue Value>
 Result<void> read_flag(const Arguments& arguments, const FieldTraits& traits, Value& value) {
   if (!arguments.has(traits.flag)) return {};
@@ -94,8 +93,7 @@ inline Flag& flag_named(std::vector<Flag>& flags, std::string_view name) {
   return *std::find_if(flags.begin(), flags.end(), [&](const Flag& flag) { return flag.name == name; });
 }
 
-/// Sets all fields that have flags; the parser has checked words and ranges.
-/// Errors: as read_flag().
+/// Sets all fields that have flags; the parser has checked words and ranges. Errors: as read_flag().
 template <class Recipe>
 Result<void> read_recipe(const Arguments& arguments, Recipe& recipe) {
   Result<void> all;

@@ -38,12 +38,10 @@ Result<CsvOptions> csv_options(const Arguments& arguments, CsvOptions otherwise 
 Result<Recording> read_table(const std::filesystem::path& path, const Arguments& arguments,
                              const CsvOptions& otherwise = {});
 
-/// Handles a bad recording: with --skip-bad warns of it and lists it in the result as `skipped`. Returns whether the
-/// recording is skipped.
+/// Returns whether a bad recording is skipped: --skip-bad warns of it and lists it in the result as `skipped`.
 bool leave_out(const std::string& path, const Error& error, const Arguments& arguments, Terminal& terminal);
 
-/// Reads every path by `read`. A bad recording is an error, or handled by leave_out().
-/// Errors: those of `read`; no recording remains.
+/// Reads every path by `read`; bad ones go to leave_out(). Errors: those of `read`; no recording remains.
 Result<std::vector<Recording>> read_all(const std::vector<std::string>& paths, const Arguments& arguments,
                                         Terminal& terminal,
                                         const std::function<Result<Recording>(const std::string&)>& read);

@@ -12,9 +12,8 @@
 
 namespace wisp {
 
-/// Reads a whole file. Returns its bytes.
-/// Errors: the file cannot be opened (missing, a folder, no permission), cannot be read to its end, or is larger than
-/// `max_bytes` or half the address space.
+/// Reads a whole file. Returns its bytes. Errors: the file cannot be opened (missing, a folder, no permission), cannot
+/// be read to its end, or is larger than `max_bytes` or half the address space.
 Result<std::vector<std::byte>> read_file(const std::filesystem::path& path,
                                          std::uint64_t max_bytes = std::uint64_t{1} << 32);
 

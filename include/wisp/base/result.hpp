@@ -31,7 +31,6 @@ struct Error {
 };
 
 /// A value of type T, or the Error that explains why there is none.
-///
 /// Precondition of value(): holds a value. Otherwise the error's sentence is reported as misuse, and the program ends.
 /// Precondition of error(): holds an error.
 template <class T>

@@ -39,15 +39,12 @@ Result<Captured> capture_falls(const std::filesystem::path& path, const FallOpti
 /// Estimates the wind from the sound of a clip whose picture has `frames` frames at `rate_hz` per second, or of a sound
 /// file, for its whole length. Returns no frames if the sound track is missing or silent; `note` says which. Errors:
 /// the file cannot be read, its sound cannot be decoded, is shorter than a frame or, without `frames`, is truncated.
-///
 /// Precondition: rate_hz > 0.
 Result<ClipWind> hear_wind(const std::filesystem::path& path, double rate_hz,
                            std::optional<std::size_t> frames = std::nullopt);
 
 /// Captures the wind from a sound file, or a film's sound, at `rate_hz` rows per second: one input, named by `measure`.
-/// Errors: those of hear_wind(), and a sound track that is missing or silent.
-///
-/// Precondition: rate_hz > 0.
+/// Errors: those of hear_wind(), and a sound track that is missing or silent. Precondition: rate_hz > 0.
 Result<Recording> capture_wind(const std::filesystem::path& path, double rate_hz,
                                WindMeasure measure = WindMeasure::kSpeed);
 

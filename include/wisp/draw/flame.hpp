@@ -104,7 +104,6 @@ struct Camera {
 /// Computes the outline of a body in model units, from the base's left over the tip to the base's right: two points per
 /// ring. A level camera sees each ring's left and right end, at azimuth 0 the model's own outline; a raised one sees
 /// the silhouette.
-///
 /// Precondition: `rings` are those of one instance (BodyFacet::read_rings()), and `outline` has two points per ring.
 void see_body(std::span<const float> rings, const Camera& camera, std::span<Point> outline);
 

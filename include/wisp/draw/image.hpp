@@ -46,13 +46,10 @@ class Image {
  public:
   Image() = default;
 
-  /// Creates a picture of one colour.
-  ///
-  /// Precondition: 1 <= width, height <= kLargestImageSide.
+  /// Creates a picture of one colour. Precondition: 1 <= width, height <= kLargestImageSide.
   Image(int width, int height, Colour fill = {0, 0, 0, 255});
 
   /// Creates a picture from 8-bit RGB bytes, with `row_bytes` from one row to the next (0: rows follow without gaps).
-  ///
   /// Precondition: 1 <= width, height <= kLargestImageSide.
   /// Precondition: rgb.size() >= (height − 1) × row_bytes + 3 × width.
   static Image from_rgb(std::span<const std::uint8_t> rgb, int width, int height, std::size_t row_bytes = 0);
@@ -82,14 +79,11 @@ class Image {
 };
 
 /// Returns the part of a picture inside `box`; black outside the picture.
-///
 /// Precondition: 1 <= box.width, box.height <= kLargestImageSide.
 Image crop(const Image& image, PixelBox box);
 
 /// Returns a picture resampled to another size, smoothly.
-///
-/// Precondition: !image.empty().
-/// Precondition: 1 <= width, height <= kLargestImageSide.
+/// Precondition: !image.empty(); 1 <= width, height <= kLargestImageSide.
 Image resized(const Image& image, int width, int height);
 
 /// Writes a PNG file, completely or not at all.

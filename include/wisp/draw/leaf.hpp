@@ -3,8 +3,7 @@
 //
 // A leaf is painted once, large and flat; in the air it is a bent card of a few triangles textured with that picture
 // and shaded by its attitude. Shadows are soft ellipses, as dark as the leaf blocks light, summed on a coarse grid.
-// Hundreds are drawn in a few milliseconds. Poses may come from a simulator, a model or a recording. Equal calls draw
-// equal bytes.
+// Hundreds are drawn in a few milliseconds. Poses: from a simulator, model or recording. Equal calls draw equal bytes.
 
 #include <array>
 #include <cstdint>
@@ -63,9 +62,7 @@ struct FlockLeaf {
 class LeafFlock {
  public:
   /// `style` gives size, curl and the first set of colours; the other sets are those of other weeks of autumn. Style
-  /// and camera are clamped to their ranges.
-  ///
-  /// Precondition: 1 <= width, height <= kLargestImageSide.
+  /// and camera are clamped to their ranges. Precondition: 1 <= width, height <= kLargestImageSide.
   LeafFlock(int width, int height, const LeafCamera& camera, const LeafStyle& style = {}, const LeafRoom& room = {});
 
   LeafFlock(LeafFlock&&) noexcept;

@@ -74,7 +74,6 @@ struct PlotSheet {
 };
 
 /// Draws the sheet. Of series whose x and y differ in length, the common part is drawn.
-///
 /// Precondition: !sheet.plots.empty().
 Image draw_plots(const PlotSheet& sheet);
 

@@ -52,14 +52,13 @@ struct Take {
 /// found.
 Result<Take> take(const Model& model, const TakeOptions& options);
 
-/// Exports a take as a binary glTF 2.0 file (.glb), in metres where the model knows its size, with one key per frame
-/// of the take. A body is a node with translation and rotation; its mesh, a leaf, lies in its first two axes. An
-/// outline is a body of revolution, of translucent emissive shells, with one morph target per output of the model,
-/// named after the output; a flame played in 3D has as many again for its side view. A weight is the output's
-/// position between `lowest` (0) and `highest` (1), two lists in the mesh's extras, so that a bank's outputs can drive
-/// the same mesh live. For bodies the root node turns Wisp's z up into glTF's y up. A loop ends with its first frame
-/// again.
-/// Errors: the model's outputs are neither an outline nor a body; the take is not of this model.
+/// Exports a take as a binary glTF 2.0 file (.glb), in metres where the model knows its size, with one key per frame of
+/// the take. A body is a node with translation and rotation; its mesh, a leaf, lies in its first two axes. An outline
+/// is a body of revolution, of translucent emissive shells, with one morph target per output of the model, named after
+/// the output; a flame played in 3D has as many again for its side view. A weight is the output's position between
+/// `lowest` (0) and `highest` (1), two lists in the mesh's extras, so that a bank's outputs can drive the same mesh
+/// live. For bodies the root node turns Wisp's z up into glTF's y up. A loop ends with its first frame again. Errors:
+/// the model's outputs are neither an outline nor a body; the take is not of this model.
 Result<std::vector<std::byte>> gltf_bytes(const Model& model, const Take& take);
 
 /// Exports the outline of a take's first instance as a Lottie animation, `height` pixels high: the spline as cubic
@@ -112,7 +111,6 @@ struct PlantText {
 Result<PlantText> plant_text(const Model& model, PlantLanguage language, std::string_view name);
 
 /// Returns one instance's outline in one frame as a polyline: `points` × (x, y), at equal spline parameter steps.
-///
 /// Precondition: the view is an outline, the take is of this model, and points >= 2.
 std::vector<float> outline_of(const Model& model, const Take& take, std::size_t frame, std::size_t instance,
                               int points);

@@ -58,10 +58,9 @@ std::vector<Remark> feedback_of(std::span<const Recording> recordings, const std
 Report advise(const Recording& recording);
 
 /// Describes the motion of outlines: mean and deviation of height, area and lean; the flicker frequency of √area with
-/// its half-power bandwidth, and its spectrum as a series. For outlines filmed simultaneously, also the phase by
-/// which each other outline lags the first, at the first one's flicker frequency, −180 to 180 degrees, and coherence.
-/// Errors: no outline; fewer than two rows with an outline; a rate or number of rows that differs from the first
-/// recording's.
+/// its half-power bandwidth, and its spectrum as a series. For outlines filmed simultaneously, also the phase by which
+/// each other outline lags the first, at the first one's flicker frequency, −180 to 180 degrees, and coherence. Errors:
+/// no outline; fewer than two rows with an outline; a rate or number of rows that differs from the first recording's.
 Result<Report> outline_motion(std::span<const Recording> recordings);
 
 }  // namespace wisp

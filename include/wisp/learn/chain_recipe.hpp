@@ -26,8 +26,7 @@ struct EventSpec {
                                          ///< second axis)
 };
 
-/// Parses `zero:SIGNAL`, `min:SIGNAL` or `max:SIGNAL`.
-/// Errors: another form.
+/// Parses `zero:SIGNAL`, `min:SIGNAL` or `max:SIGNAL`. Errors: another form.
 Result<EventSpec> parse_event(std::string_view text);
 
 /// Realisation of a mode: the source of its segments.

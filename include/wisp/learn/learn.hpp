@@ -27,11 +27,10 @@ struct Fit {
 };
 
 /// Learns a model from recordings according to the recipe. Settings left open by the recipe are chosen from the
-/// recordings; the report states the choices, the quality of the model, and whether it may be used.
-/// Returns a model that has passed check() and documents its origin in `training`, or, if the recordings yield no
-/// playable model, one whose verdict says so.
-/// Errors, naming the recording: missing or invalid content, settings out of range, too few rows; kStopped where
-/// `progress` returned false.
+/// recordings; the report states the choices, the quality of the model, and whether it may be used. Returns a model
+/// that has passed check() and documents its origin in `training`, or, if the recordings yield no playable model, one
+/// whose verdict says so. Errors, naming the recording: missing or invalid content, settings out of range, too few
+/// rows; kStopped where `progress` returned false.
 Result<Fit> learn(std::span<const Recording> recordings, const Recipe& recipe, const Progress& progress = {});
 
 /// Learns from one recording.

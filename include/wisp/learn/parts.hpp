@@ -1,6 +1,5 @@
 #pragma once
-// ARX estimation in parts, for tables larger than memory or spread over processes and machines. Parts are merged in any
-// order.
+// ARX estimation in parts, merged in any order, for tables larger than memory or spread over processes and machines.
 //
 // A part holds the triangular factor of its rows' regression, whose size does not depend on the number of rows. The fit
 // of merged parts equals that of all rows in memory except for rounding. Models of other kinds have no parts: they are
@@ -46,9 +45,8 @@ class ArxPart {
   ArxPart& operator=(ArxPart&&) noexcept;
   ~ArxPart();
 
-  /// Adds a share of a recording; after an error the part is unchanged.
-  /// Errors: a missing channel, a rate that differs from the previous one, infinite samples, rows beyond the
-  /// recording's end, rows that were added before.
+  /// Adds a share of a recording; after an error the part is unchanged. Errors: a missing channel, a rate that differs
+  /// from the previous one, infinite samples, rows beyond the recording's end, rows that were added before.
   Result<void> add(const Recording& recording, const TableShare& share = {});
 
   /// Adds a share of a CSV file, read in blocks, in memory that does not grow with its length.

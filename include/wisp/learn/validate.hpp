@@ -49,12 +49,11 @@ struct PredictionOptions {
   InitialState initial = InitialState::kMeasured;  ///< of an ARX model's free run; otherwise only kMeasured
 };
 
-/// Predicts a recording row by row. Returns the recording's inputs, and for every output the measured channel
-/// NAME, NAME.predicted and, except for switched models, NAME.low and NAME.high: the 95 % interval by the model's own
-/// noise. NaN where there is no prediction: at the beginning of an episode, and after missing samples. Outlines are in
-/// the recording's pixels.
-/// Errors, naming the recording: missing channels, another rate than the model's; a segment chain, which predicts no
-/// rows; an initial state that the model does not support; steps out of range.
+/// Predicts a recording row by row. Returns the recording's inputs, and for every output the measured channel NAME,
+/// NAME.predicted and, except for switched models, NAME.low and NAME.high: the 95 % interval by the model's own noise.
+/// NaN where there is no prediction: at the beginning of an episode, and after missing samples. Outlines are in the
+/// recording's pixels. Errors, naming the recording: missing channels, another rate than the model's; a segment chain,
+/// which predicts no rows; an initial state that the model does not support; steps out of range.
 Result<Recording> predict(const Model& model, const Recording& recording, const PredictionOptions& options = {});
 
 /// Returns a recording whose channels `names`, one per input of the model, are converted to the units of those inputs,
@@ -62,9 +61,7 @@ Result<Recording> predict(const Model& model, const Recording& recording, const 
 /// sound level at value 1, then divided by the training's scale. `own_gain`, for another microphone: a model of an
 /// outline divides instead by the 95th percentile of the recording's windy rows, another model by 1. Channels in an
 /// input's unit already, as played by a model, stay unchanged. Errors, naming the recording: a missing channel; a
-/// stated sound level that is not a positive number.
-///
-/// Precondition: as many names as inputs.
+/// stated sound level that is not a positive number. Precondition: as many names as inputs.
 Result<Recording> in_model_units(const Model& model, Recording recording, std::span<const std::string> names,
                                  bool own_gain = false);
 

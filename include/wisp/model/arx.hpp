@@ -118,9 +118,7 @@ struct ArxModel {
 Result<void> check(const ArxModel& model);
 
 /// Returns blocks of output indices. Two outputs are in one block if the equation of either has lags of the other,
-/// directly or through others. Different blocks simulate independently.
-///
-/// Precondition: `na` is square.
+/// directly or through others. Different blocks simulate independently. Precondition: `na` is square.
 std::vector<std::vector<int>> coupled_outputs(const OrderMatrix& na);
 
 /// Returns the largest absolute eigenvalue of the companion matrix of A(q), with coefficients rounded to single

@@ -17,8 +17,7 @@ namespace wisp {
 
 inline constexpr int kModelFormatVersion = 1;
 
-/// Returns the bytes of a model's file. Equal models give equal bytes.
-/// Errors: the model itself is not valid (check()).
+/// Returns the bytes of a model's file. Equal models give equal bytes. Errors: the model itself is not valid (check()).
 Result<std::vector<std::byte>> model_bytes(const Model& model);
 
 /// Reads a model from the bytes of a file; `name` stands for the file in messages.

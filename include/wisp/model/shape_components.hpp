@@ -1,7 +1,6 @@
 #pragma once
 // An outline as a shape at rest and a few components of its deviation from it: principal components in the space of
-// shape coordinates (T. Cootes and C. Taylor, "Active shape models", Computer Vision and Image Understanding 61
-// (1995)).
+// shape coordinates (T. Cootes and C. Taylor, "Active shape models", Comput. Vision Image Understanding 61, 1995).
 //
 // Shape coordinates pair the control points of the left flank with those of the right one: half the difference of their
 // x and their mean height are invariant under reflection (symmetric), their mean x and half the difference of their
@@ -47,14 +46,11 @@ struct ShapeComponents {
   friend bool operator==(const ShapeComponents&, const ShapeComponents&) = default;
 };
 
-/// Convert control points x0, y0, x1, y1, … to shape coordinates, and back.
-///
-/// Precondition: an even number of values.
+/// Convert control points x0, y0, x1, y1, … to shape coordinates, and back. Precondition: an even number of values.
 std::vector<double> shape_coordinates(std::span<const double> control_points);
 std::vector<double> control_points(std::span<const double> shape_coordinates);
 
 /// Returns the control points of a shape with these component values; for a body, projected to the picture's plane.
-///
 /// Precondition: the shape has passed check(); one value per component.
 std::vector<double> control_points(const ShapeComponents& shape, std::span<const double> components);
 

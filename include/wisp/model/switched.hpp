@@ -39,7 +39,6 @@ struct SwitchedArxModel {
 };
 
 /// Returns one mode as an ARX model of its own, without the correlation of its outputs' shocks.
-///
 /// Precondition: mode < model.modes.size().
 ArxModel mode_model(const SwitchedArxModel& model, std::size_t mode);
 

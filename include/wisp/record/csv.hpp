@@ -34,30 +34,26 @@ class CsvReader {
   CsvReader& operator=(CsvReader&&) noexcept;
   ~CsvReader();
 
-  /// Reads the comment lines and the header. `name` stands for the file in messages.
-  /// Tables from elsewhere may be separated by commas, semicolons, tabs or blanks, have decimal commas, a line that
-  /// states the separator for Excel, a line of units, and comment lines that begin with # or %, also between rows. If
-  /// nothing else states the rate, a time column does (t, time, date and the like; in s unless its name or the line of
-  /// units says ms, us, min or h, or its whole steps suggest ms), if its steps are equal; a count of rows is no
-  /// time column. Errors, each with file and row (1-based, as an editor counts lines): not text, neither a header nor
-  /// `columns`, no rate, an unknown version, an unknown or repeated column, time that does not increase.
-  ///
-  /// Precondition: `stream` outlives the reader.
+  /// Reads the comment lines and the header. `name` stands for the file in messages. Tables from elsewhere may be
+  /// separated by commas, semicolons, tabs or blanks, have decimal commas, a line that states the separator for Excel,
+  /// a line of units, and comment lines that begin with # or %, also between rows. If nothing else states the rate, a
+  /// time column does (t, time, date and the like; in s unless its name or the line of units says ms, us, min or h, or
+  /// its whole steps suggest ms), if its steps are equal; a count of rows is no time column. Errors, each with file and
+  /// row (1-based, as an editor counts lines): not text, neither a header nor `columns`, no rate, an unknown version,
+  /// an unknown or repeated column, time that does not increase. Precondition: `stream` outlives the reader.
   static Result<CsvReader> open(std::istream& stream, std::string_view name, const CsvOptions& options = {});
 
   /// Returns the recording without its rows: rate, channels, flags and attributes.
   const Recording& header() const;
 
   /// Appends up to `max_rows` further rows to `recording`: a copy of header(), with the rows of earlier calls or none.
-  /// Returns their number; 0 at the end.
-  /// An empty cell, NaN or NA is a missing sample.
-  /// Errors: uneven time steps, a wrong number of columns, text or infinity in place of a number, decimal points and
-  /// commas in one table, commas that may separate thousands, a line longer than 16 MiB. Part of a row may then remain.
+  /// Returns their number; 0 at the end. An empty cell, NaN or NA is a missing sample. Errors: uneven time steps, a
+  /// wrong number of columns, text or infinity in place of a number, decimal points and commas in one table, commas
+  /// that may separate thousands, a line longer than 16 MiB. Part of a row may then remain.
   Result<std::size_t> read(Recording& recording, std::size_t max_rows);
 
-  /// Skips up to `max_rows` rows without parsing their numbers.
-  /// Returns their number; fewer than requested at the end only.
-  /// Errors: bytes that are not text, a line longer than 16 MiB.
+  /// Skips up to `max_rows` rows without parsing their numbers. Returns their number; fewer than requested at the end
+  /// only. Errors: bytes that are not text, a line longer than 16 MiB.
   Result<std::size_t> skip(std::size_t max_rows);
 
  private:

@@ -20,12 +20,11 @@ struct MatOptions {
   std::vector<std::string> outputs;  ///< variables that are outputs
 };
 
-/// Reads a recording from a MATLAB file of level 5 (`save` up to -v7), compressed or not.
-/// Numbers of every class become doubles; NaN is a missing sample; row and column vectors are equivalent.
-/// Returns inputs, then outputs, as one episode.
-/// Errors, each with file and variable: not such a file, a missing variable (the existing ones are listed), one that is
-/// not a real, full, numeric vector or matrix, more than `max_bytes`, infinite numbers, variables of different lengths,
-/// no rate, uneven time, no variable named.
+/// Reads a recording from a MATLAB file of level 5 (`save` up to -v7), compressed or not. Numbers of every class become
+/// doubles; NaN is a missing sample; row and column vectors are equivalent. Returns inputs, then outputs, as one
+/// episode. Errors, each with file and variable: not such a file, a missing variable (the existing ones are listed),
+/// one that is not a real, full, numeric vector or matrix, more than `max_bytes`, infinite numbers, variables of
+/// different lengths, no rate, uneven time, no variable named.
 Result<Recording> read_mat(const std::filesystem::path& path, const MatOptions& options);
 
 /// Returns names and sizes of the numeric variables and structure fields, about ten thousand at most: "u (1000 × 2)".

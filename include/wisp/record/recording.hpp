@@ -98,7 +98,6 @@ void set_numbers_attribute(Recording& recording, std::string_view name, std::spa
 std::vector<double> seconds_of(const Recording& recording);
 
 /// Returns rows [first, last) of a recording, with its channels, flags, episodes and attributes.
-///
 /// Precondition: first <= last <= recording.rows().
 Recording slice(const Recording& recording, std::size_t first, std::size_t last);
 

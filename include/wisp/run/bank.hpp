@@ -73,19 +73,16 @@ struct Crew {
   void* pool = nullptr;  ///< first argument of `run`
 };
 
-/// A bank of instances of one model.
-///
-/// Precondition: a bulk buffer has room for slots() rows or more, any other span has exactly the stated size. Checked
-/// in every build: a call that violates this is reported (wisp/base/result.hpp) and does nothing. Precondition of all
-/// functions but move and destruction: the bank has not been moved from.
+/// A bank of instances of one model. Precondition: a bulk buffer has room for slots() rows or more, any other span has
+/// exactly the stated size. Checked in every build: a call that violates this is reported (wisp/base/result.hpp) and
+/// does nothing. Precondition of all functions but move and destruction: the bank has not been moved from.
 class Bank {
  public:
   struct State;  ///< private to run/
 
   /// Creates an empty bank. The needed parts of the model are copied, and it may be destroyed afterwards; memory given
-  /// by the caller must outlive the bank.
-  /// Errors: the model is not valid (check()) or holds numbers outside single precision, an option is out of its range,
-  /// the memory is too small or cannot be allocated.
+  /// by the caller must outlive the bank. Errors: the model is not valid (check()) or holds numbers outside single
+  /// precision, an option is out of its range, the memory is too small or cannot be allocated.
   static Result<Bank> create(const Model& model, const BankOptions& options = {});
 
   Bank(Bank&& other) noexcept;
@@ -140,7 +137,6 @@ class Bank {
   /// Makes many steps in one call, for offline play, with the same bits as single steps. Row t of `inputs`, slots() ×
   /// input_count(), is set before step t, and the last one stays set; empty: the inputs stay as they are. Row t of
   /// `outputs`, slots() × output_count(), receives the outputs after step t; empty: they are not read.
-  ///
   /// Precondition: count >= 0; `inputs` and `outputs` have `count` rows, or none.
   void step(int count, std::span<const float> inputs = {}, std::span<float> outputs = {});
 
@@ -165,9 +161,7 @@ class Bank {
   bool outputs(InstanceId id, std::span<float> values) const;
 
   /// Reads all outlines: slots() × polyline_points() × (x, y), from the base's left over the tip to the base's right at
-  /// equal steps of the spline's parameter.
-  ///
-  /// Precondition: polyline_points() > 0.
+  /// equal steps of the spline's parameter. Precondition: polyline_points() > 0.
   void polylines(std::span<float> values) const;
 
   /// Reads the outline of one instance: polyline_points() × (x, y). Returns false when `id` is not valid.
@@ -207,7 +201,6 @@ class Bank {
   std::size_t save_bytes() const;
 
   /// Writes the state of the bank, settings included: a bank restored from it continues with the same bits.
-  ///
   /// Precondition: `bytes` has save_bytes() bytes.
   void save(std::span<std::byte> bytes) const;
 

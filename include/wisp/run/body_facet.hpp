@@ -13,8 +13,7 @@
 
 namespace wisp {
 
-/// Number of values per ring: the centre's x, y and z, the radius, and the rise from centre to rim towards +x and
-/// towards +z.
+/// Number of values per ring: the centre's x, y, z, the radius, and the rise from centre to rim towards +x and +z.
 inline constexpr std::size_t kRingNumbers = 6;
 
 /// Number of values per vertex: position and normal.

@@ -26,9 +26,8 @@ struct Cost {
 
 /// Counts the operations of one frame of one instance, with an outline read as a polyline of `polyline_points` (0:
 /// control points only). Every input is at its highest value, as a step skips regressors that have been 0 for the whole
-/// history; the worst frame is also sought among frames whose inputs swing between 0 and that value.
-/// Comparisons, conversions and moves are not arithmetic and are not counted.
-/// Errors: those of Bank::create().
+/// history; the worst frame is also sought among frames whose inputs swing between 0 and that value. Comparisons,
+/// conversions and moves are not arithmetic and are not counted. Errors: those of Bank::create().
 Result<Cost> count_operations(const Model& model, int polyline_points = 32);
 
 }  // namespace wisp

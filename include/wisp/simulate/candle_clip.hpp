@@ -104,13 +104,12 @@ struct CandleClipOutputs {
   std::function<void(double share)> on_progress;                 ///< 0 … 1, once per frame
 };
 
-/// Simulates a candle, its film and its sound.
-/// Returns the ground truth, one row per frame: u:wind[m/s] (at the frame's end), y:tip.x, y:tip.y, y:height [mm],
-/// y:lean[deg], y:brightness[mm2], y:lit[1], and the outline's control points y:p0.x[px], y:p0.y[px], … in pixels of
-/// the picture; tip and outline are missing (NaN) while there is no flame. Attributes state the view (pixels_per_mm,
-/// origin_x, origin_y), the seed, and the grid.
-/// Errors: an option outside its range (which, what was found, what was expected), a missing wind channel, an error
-/// returned by an output, or a numerically unstable flow (a defect; never seen).
+/// Simulates a candle, its film and its sound. Returns the ground truth, one row per frame: u:wind[m/s] (at the frame's
+/// end), y:tip.x, y:tip.y, y:height [mm], y:lean[deg], y:brightness[mm2], y:lit[1], and the outline's control points
+/// y:p0.x[px], y:p0.y[px], … in pixels of the picture; tip and outline are missing (NaN) while there is no flame.
+/// Attributes state the view (pixels_per_mm, origin_x, origin_y), the seed, and the grid. Errors: an option outside its
+/// range (which, what was found, what was expected), a missing wind channel, an error returned by an output, or a
+/// numerically unstable flow (a defect; never seen).
 Result<Recording> simulate_candle(const CandleClipOptions& options, const CandleClipOutputs& outputs);
 
 }  // namespace wisp

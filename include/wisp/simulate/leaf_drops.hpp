@@ -76,8 +76,7 @@ struct LeafPairs {
 };
 
 /// Simulates the pairs. Both recordings have the same attributes `pair` (an identifier) and `clones` (the number of
-/// consecutive episodes per gust).
-/// Errors: those of simulate_leaf_drops().
+/// consecutive episodes per gust). Errors: those of simulate_leaf_drops().
 Result<LeafPairs> simulate_leaf_pairs(const LeafPairsOptions& options);
 
 }  // namespace wisp

@@ -98,7 +98,6 @@ class WindLevel {
 
   /// Consumes interleaved samples, full scale ±1, until they are used up or `frames` is full; pass the samples that
   /// were not consumed again. NaN counts as 0; samples are clamped to ±8. Returns the numbers of samples and frames.
-  ///
   /// Precondition: samples.size() is a multiple of the channels.
   WindFed feed(std::span<const float> samples, std::span<WindFrame> frames);
 

@@ -37,9 +37,7 @@ class WindTracker {
   WindTracker& operator=(WindTracker&&) noexcept;
   ~WindTracker();
 
-  /// Takes interleaved samples, full scale ±1.
-  ///
-  /// Precondition: samples.size() is a multiple of the channels.
+  /// Takes interleaved samples, full scale ±1. Precondition: samples.size() is a multiple of the channels.
   void feed(std::span<const float> samples);
 
   /// Returns the wind of all sound fed so far. Errors: the sound is shorter than one frame.

@@ -100,8 +100,7 @@ std::optional<std::string> missed_times(const ClipWind& wind, const ClipTimes& t
   return first_missed(criteria);
 }
 
-// Interpolates outlines at the grid times from the frames before and after, unless all frames lie on the grid. Filled
-// rows are not used.
+// Interpolates outlines at grid times between neighbouring frames (not filled rows), unless all lie on the grid.
 void put_in_place(std::span<const float> offsets, Recording& recording) {
   constexpr float kThere = 0.1F;  // rows: smaller offsets are ignored
   if (std::all_of(offsets.begin(), offsets.end(), [](float offset) { return std::abs(offset) < kThere; })) return;

@@ -19,17 +19,13 @@ class ClipEar {
   /// Seconds between a block's time stamp and the end of the block before it, above which sound was lost or repeated.
   static constexpr double kJitter = 0.05;
 
-  /// Creates an ear that returns `rate_hz` wind frames per second. Errors: as WindTracker.
-  ///
-  /// Precondition: rate_hz > 0.
+  /// Creates an ear that returns `rate_hz` wind frames per second. Errors: as WindTracker. Precondition: rate_hz > 0.
   static Result<ClipEar> create(const SoundFormat& format, double rate_hz);
 
-  /// Takes interleaved samples, full scale ±1, beginning `begin` seconds after the picture's first frame (may be
-  /// negative).
+  /// Takes interleaved samples, full scale ±1, from `begin` seconds after the picture's first frame (may be negative).
   void feed(double begin, std::span<const float> samples);
 
-  /// Returns the wind of the picture's frames from index `skipped` to before `frames`; none if the sound is silent.
-  /// Errors: as WindTracker.
+  /// Returns the wind of frames `skipped` to before `frames`; none if the sound is silent. Errors: as WindTracker.
   Result<ClipWind> finish(std::size_t frames, std::size_t skipped = 0) const;
 
  private:

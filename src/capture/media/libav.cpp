@@ -8,8 +8,7 @@
 namespace wisp {
 namespace {
 
-// Container formats that may be opened. FFmpeg supports more, among them playlists and scripts that make it open other
-// files.
+// Container formats that may be opened. FFmpeg's others include playlists and scripts that make it open other files.
 constexpr const char* kContainers =
     "mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,avi,mpegts,mpeg,mpegvideo,flv,asf,ogg,nut,ivf,gif,apng,yuv4mpegpipe,h264,"
     "hevc,wav,w64,aiff,caf,flac,mp3,aac,au";

@@ -64,10 +64,9 @@ void silence_libav();
 /// FFmpeg's text for an error code.
 std::string libav_message(int code);
 
-/// Opens a media file and reads its list of tracks. FFmpeg's own messages on standard error are disabled.
-/// Only the file itself is read, whatever it refers to: playlists and scripts are not accepted.
-/// Errors: missing, a folder, a pipe or a device, not a media file, truncated before its index, a picture of more than
-/// kMaxFilmPixels.
+/// Opens a media file and reads its list of tracks. FFmpeg's own messages on standard error are disabled. Only the file
+/// itself is read, whatever it refers to: playlists and scripts are not accepted. Errors: missing, a folder, a pipe or
+/// a device, not a media file, truncated before its index, a picture of more than kMaxFilmPixels.
 Result<FormatOwner> open_media(const std::filesystem::path& path);
 
 /// Returns the stated duration of a track, else of the file (its longest track), in seconds; 0: none is stated.
@@ -83,8 +82,7 @@ double end_of(const AVFormatContext& format, const AVPacket& packet);
 /// Returns whether the file is truncated: its last packet ends at `end` seconds, well before the stated duration.
 bool is_truncated(const AVFormatContext& format, int track, double end);
 
-/// Opens a decoder with `threads` threads for one track.
-/// Errors: a codec that FFmpeg cannot decode.
+/// Opens a decoder with `threads` threads for one track. Errors: a codec that FFmpeg cannot decode.
 Result<CodecOwner> open_decoder(const std::filesystem::path& path, const AVStream& track, int threads);
 
 }  // namespace wisp

@@ -15,8 +15,7 @@ namespace wisp {
 /// Converts frames to pictures; reuses converters and memory between frames.
 class FramePictures {
  public:
-  /// Frames are stretched to square pixels from pixels `aspect` times as wide as high, and rotated clockwise by
-  /// `quarter_turns`.
+  /// Frames with pixels `aspect` times as wide as high are made square, then turned clockwise by `quarter_turns`.
   explicit FramePictures(int quarter_turns = 0, double aspect = 1) : quarter_turns_(quarter_turns), aspect_(aspect) {}
 
   /// Width and height of a frame as displayed.

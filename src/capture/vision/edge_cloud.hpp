@@ -29,9 +29,7 @@ struct EdgePoint {
   double normal_y = 0;
 };
 
-/// Locates the edge at one boundary pixel.
-///
-/// Precondition: pixel lies inside the image and is brighter than `level`.
+/// Locates the edge at one boundary pixel. Precondition: pixel lies inside the image and is brighter than `level`.
 EdgePoint locate_edge(const ImageView& image, int level, PixelPosition pixel);
 
 /// Number of intervals of a fitted pace.
@@ -88,11 +86,10 @@ bool make_edge_cloud(const BoundaryWindow& window, std::span<const PixelPosition
 void place_points(EdgeCloud& cloud, const EdgeCloudOptions& options);
 
 /// Shape of a curve: its knots, and its speed along the outline. Knots are concentrated where outlines bend: they are
-/// placed once per clip, from a few outlines, if they then fit better than uniform knots.
-///
-/// Knots divide a density into equal amounts: part uniform, part the outlines' mean bending (C. de Boor, A Practical
-/// Guide to Splines, chapter XII, similarly distributes knots by a power of a derivative). Several powers of the
-/// bending and uniform shares are tried; the best is kept.
+/// placed once per clip, from a few outlines, if they then fit better than uniform knots. Knots divide a density into
+/// equal amounts: part uniform, part the outlines' mean bending (C. de Boor, A Practical Guide to Splines, chapter XII,
+/// similarly distributes knots by a power of a derivative). Several powers of the bending and uniform shares are tried;
+/// the best is kept.
 struct CurveShape {
   std::vector<double> knots;  ///< full clamped knot vector
   std::vector<double> pace;   ///< curve parameter at equally spaced positions of a cloud (EdgeCloudOptions::pace)
@@ -102,15 +99,12 @@ struct CurveShape {
   std::vector<double> misfits;  ///< misfit of each outline; `misfit` is their mean
 };
 
-/// Returns the pace at which splines over these knots follow the outlines best, with its misfit.
-///
-/// Precondition: valid_knots(knots); clouds is not empty and was made with an even pace.
+/// Returns the pace at which splines over these knots follow the outlines best, with its misfit. Precondition:
+/// valid_knots(knots); clouds is not empty and was made with an even pace.
 CurveShape fit_pace(std::span<const EdgeCloud> clouds, std::span<const double> knots);
 
 /// Returns the best knots found for `points` control points: uniform ones unless others have a misfit lower by more
-/// than 0.002 (0.2 % of the area).
-///
-/// Precondition: points >= 4; clouds is not empty and was made with an even pace.
+/// than 0.002 (0.2 % of the area). Precondition: points >= 4; clouds is not empty and was made with an even pace.
 CurveShape choose_shape(std::span<const EdgeCloud> clouds, int points);
 
 }  // namespace wisp

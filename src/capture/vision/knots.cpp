@@ -56,8 +56,7 @@ std::vector<double> spread(const Density& bend, int points, double even, double 
 
 constexpr int kPaceRounds = 3;
 
-// Misfit of a curve that intersects itself, as in a loop at a sharp tip or at the base: played with noise, it would
-// intersect itself even more.
+// Misfit of a curve that intersects itself (a loop at a sharp tip or the base): played with noise, it would even more.
 constexpr double kFolded = 1;
 
 double misfit(const EdgeCloud& cloud, std::span<const double> residuals) {

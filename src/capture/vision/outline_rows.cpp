@@ -90,8 +90,7 @@ std::vector<Fate> judge(const FrameFindings& findings, double usual_brightness, 
   return fate;
 }
 
-// Marks frozen stretches as duplicates, which duplicate() misses, as the frames around are repeated too. Returns the
-// stretches' number of rows.
+// Marks frozen stretches as duplicates (duplicate() misses them: frames around repeat too). Returns the number of rows.
 std::size_t mark_frozen(const FrameFindings& findings, std::vector<Fate>& fate) {
   std::size_t rows = 0;
   std::vector<float> changes;

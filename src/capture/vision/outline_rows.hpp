@@ -39,9 +39,8 @@ struct FrameFindings {
 void assemble_rows(const FrameFindings& findings, int points, Recording& recording, CaptureReport& report);
 
 /// Computes the report's facts and `out_at` from the recording's outlines; facts of still pictures (light, contrast,
-/// clipped, steadiness) come from the survey. Returns whether there is any outline.
-///
-/// Precondition: the recording's first channels are the outline's control points, x and y alternating.
+/// clipped, steadiness) come from the survey. Returns whether there is any outline. Precondition: the recording's first
+/// channels are the outline's control points, x and y alternating.
 bool gather_facts(const Recording& recording, const SplineTable& table, CaptureReport& report);
 
 /// Computes `likely_flame`, `likely_right`, `usable` and `reason` from the facts. The reason of an unusable outline is

@@ -35,8 +35,7 @@ struct PixelPosition {
 /// Finds bright regions; reuses its memory between pictures.
 class RegionFinder {
  public:
-  /// Returns the regions of pixels above `level` that have at least `min_area` pixels, largest first. The span is valid
-  /// until the next call.
+  /// Returns the regions above `level` of at least `min_area` pixels, largest first; valid until the next call.
   std::span<const BrightRegion> find(const ImageView& image, int level, std::int64_t min_area);
 
  private:
@@ -63,13 +62,11 @@ class RegionFinder {
 inline constexpr int kMinStep = 3;  ///< pixels: a smaller step of a boundary is noise
 
 /// Follows the outer boundary of the region at `seed`, clockwise on the screen, starting there: each pixel touches the
-/// next by side or corner and lies in the region. Replaces the contents of `boundary`.
-///
-/// Precondition: seed is the leftmost pixel of the region's first row.
+/// next by side or corner and lies in the region. Replaces the contents of `boundary`. Precondition: seed is the
+/// leftmost pixel of the region's first row.
 void follow_boundary(const ImageView& image, int level, PixelPosition seed, std::vector<PixelPosition>& boundary);
 
-/// Length of a vector in the picture. std::hypot, which guards against overflow that pixels cannot reach, takes ten
-/// times as long.
+/// Length of a vector. std::hypot, which guards against overflow that pixels cannot reach, takes ten times as long.
 inline double length(double x, double y) { return std::sqrt(x * x + y * y); }
 
 /// One row of a profile: coordinates of its first and last pixel.
@@ -79,8 +76,7 @@ struct ProfileRow {
   int width() const { return high - low + 1; }
 };
 
-/// Width of a region in each row from tip to base, including holes. "Rows" are columns where the base is on the left or
-/// on the right.
+/// Width of a region in each row from tip to base, holes included. Where the base is left or right, rows are columns.
 struct Profile {
   int first = 0;  ///< depth of the first row: a coordinate that increases towards the base
   std::vector<ProfileRow> rows;

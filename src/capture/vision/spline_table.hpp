@@ -91,9 +91,7 @@ class SplineTable {
   std::vector<int> guess_;  // index of the span in which each cell of [0, 1] begins
 };
 
-/// The curve as an open polyline of `count` points with equally spaced s.
-///
-/// Precondition: count >= 2.
+/// The curve as an open polyline of `count` points with equally spaced s. Precondition: count >= 2.
 std::vector<CurvePoint> curve_polyline(const SplineTable& table, std::span<const double> controls, int count);
 
 /// Whether an open polyline intersects itself (adjacent sides do not count); the outline of an object never does.

@@ -89,7 +89,6 @@ void weigh(std::vector<Candidate>& candidates, const std::vector<Candidate>* bel
            const Evidence& evidence);
 
 /// Returns the box of the median left, upper, right and lower sides, robust against occasional merging of regions.
-///
 /// Precondition: seen is not empty.
 Region usual_place(std::span<const Region> seen);
 
@@ -115,9 +114,8 @@ struct Survey : Candidate {
 };
 
 /// Surveys pictures of one size. Where there are fewer than `options.flame` flames, the largest is described. Errors:
-/// no contrast anywhere, no region in most pictures.
-///
-/// Precondition: pictures is not empty; all have one size and layout; region is empty or inside them.
+/// no contrast anywhere, no region in most pictures. Precondition: pictures is not empty; all have one size and layout;
+/// region is empty or inside them.
 Result<Survey> survey_scene(std::span<const Picture> pictures, const SurveyOptions& options);
 
 /// Returns the side on which the object is held: below if the lower border cuts it off in half of the pictures; else

@@ -41,7 +41,6 @@ std::string ffmpeg_reason(int code) {
   return text;
 }
 
-// One track: its encoder and its stream in the file.
 struct Track {
   Owned<AVCodecContext> codec;
   AVStream* stream = nullptr;
@@ -258,7 +257,6 @@ Result<void> VideoWriter::Encoder::send(Track& track, const AVFrame* frame) {
   }
 }
 
-// Sends the waiting samples as one frame.
 Result<void> VideoWriter::Encoder::send_sound() {
   AVFrame& frame = *sound.frame;
   av_frame_unref(&frame);

@@ -60,8 +60,7 @@ Lamp lamp_of(const FlameShape& shape, const FlameMood& mood) {
   return {shape.middle, glowing * std::pow(area, 0.7F)};
 }
 
-// Table of light by the amount of glowing soot in view (0 none … 1 the thickest part): rim, body and core with soft
-// transitions.
+// Table of light by the amount of glowing soot in view (0 none … 1 the most): rim, body and core, softly blended.
 class SootRamp {
  public:
   SootRamp() {
@@ -99,8 +98,7 @@ float soot_profile(float t) {
   return rise * burn_off;
 }
 
-// Returns the depth of soot: the whole thickness in the upper flame; near the base only the inside of the blue mantle,
-// which soot would turn purple.
+// Returns the depth of soot: the whole thickness; near the base only inside the mantle, which it would turn purple.
 float soot_depth(float t, float thick) {
   const float shell = 0.50F * (1 - smooth_step(0.05F, 0.34F, t));
   return std::max(0.0F, thick - shell) / (1 - shell);

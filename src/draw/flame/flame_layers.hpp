@@ -1,9 +1,8 @@
 #pragma once
 // The layers of a picture of candles, which draw_flames() and LiveFlames compose: flame, wick, wax, smoke and glow.
-// Emitted light (LightField) is linear and unbounded, one value per pixel and channel.
-//
-// Room is the dark room in which candles stand: a wall and a table, lit by the flames and a little by the moon. Soft
-// light is computed on a grid of cells of 4 × 4 pixels and interpolated, a sixteenth of the work.
+// Emitted light (LightField) is linear and unbounded, one value per pixel and channel. Room is the dark room in which
+// candles stand: a wall and a table, lit by the flames and a little by the moon. Soft light is computed on a grid of
+// cells of 4 × 4 pixels and interpolated, a sixteenth of the work.
 
 #include <algorithm>
 #include <array>
@@ -67,7 +66,6 @@ Bounds bounds_of(std::span<const Point> points);
 /// Returns the pixels of a picture within bounds, extended by `margin` on each side; zero width: none.
 PixelBox visible_box(const Bounds& bounds, int margin, int width, int height);
 
-/// Emitted light per pixel of a picture.
 struct LightField {
   LightField(int width, int height) : red(width, height), green(width, height), blue(width, height) {}
 
@@ -93,9 +91,7 @@ struct HaloRing {
 /// Adds the field's own luminance, blurred by each ring's Gaussian and tinted, to the field.
 void add_halo(LightField& field, std::span<const HaloRing> rings);
 
-/// Adds a halo computed from a given luminance; `field` may be coarser than the picture.
-///
-/// Precondition: luminance and field have one size.
+/// Adds a halo computed from a given luminance of the size of `field`, which may be coarser than the picture.
 void add_halo(Plane luminance, std::span<const HaloRing> rings, LightField& field);
 
 /// Returns the finest grid that the rings need, as a number of halvings of the picture's size.
@@ -108,9 +104,7 @@ Plane halved(const Plane& fine);
 float transmitted(float light);
 
 /// Adds the light to the picture by the exposure curve 1 − (1 − p)·e^(−light), approximately, with p the pixel's value.
-/// Pixels without light keep their bytes.
-///
-/// Precondition: the field has the picture's size.
+/// Pixels without light keep their bytes. Precondition: the field has the picture's size.
 void add_light(Image& image, const LightField& field);
 
 /// A flame rasterised over a picture, in its pixels; `thickness` and `coverage` hold only the box.
@@ -161,15 +155,12 @@ struct Lamp {
 };
 
 /// Draws a candle (wax that lets light through, a melted pool, the wick) lit by its own flame and by the others.
-///
 /// Precondition: the fields of scene and style are in their ranges.
 void draw_candle(Image& image, const FlameScene& scene, const FlameStyle& style, const Wick& wick, const Lamp& own,
                  std::span<const Lamp> others);
 
-/// Draws the smoke that left the wick since the flame went out, lit by the room and by the lamps: a ribbon that rises
-/// straight, then folds and curls as it slows and spreads. Draws nothing once all smoke has gone.
-///
-/// Precondition: the scene's fields are in their ranges.
+/// Draws the smoke of an extinguished wick, lit by room and lamps: a ribbon that rises straight, then folds and curls
+/// as it slows and spreads; nothing once all smoke has gone. Precondition: the scene's fields are in range.
 void draw_smoke(Image& image, const FlameScene& scene, Point wick_end, std::span<const Lamp> lamps);
 
 /// Data of one candle, computed before drawing.
@@ -181,7 +172,6 @@ struct Candle {
   Lamp lamp;
 };
 
-/// Returns the style with its fields clamped to their ranges.
 FlameStyle clamped(FlameStyle style);
 
 /// Rasterises a flame for a picture of that size.
@@ -226,8 +216,7 @@ struct Row {
   std::array<std::vector<float>, 3> channels;
 };
 
-/// Interpolates a row of cells linearly between cell centres to pixels. `scratch` has two values more than the grid has
-/// columns.
+/// Interpolates a row of cells linearly between cell centres to pixels; `scratch` has the grid's columns + 2 values.
 void spread(const LightField& grid, const Between& y, std::vector<float>& scratch, Row& row, int width);
 
 /// Writes fractional screen codes of the pixels [first, last), rounded by `dither`.
@@ -246,7 +235,6 @@ Stand stand_of(const FlameScene& scene, const FlameStyle& style, const Lamp& lam
 
 class Room {
  public:
-  /// Creates a room for a picture of that size.
   Room(int width, int height);
 
   /// Returns the light that each cell of the room sends to the eye, lit by the flames and the moon.

@@ -79,9 +79,8 @@ void append_curve(std::vector<Point>& points, Point p, Point q, Point r, Point s
   }
 }
 
-// Closes the outline around the wick. The visible part of a base is accidental: the threshold cuts it off straight, or
-// follows the wick upwards between two corners. So below the shoulders the flame is drawn as a drop whose lowest point
-// is `cap` units under the base's middle.
+// Closes the outline below its shoulders by a drop around the wick: the visible part of a base is accidental, as the
+// threshold cuts it off straight, or follows the wick upwards between two corners.
 void close_base(std::vector<Point>& points, float cap) {
   float top = 0;
   for (const Point p : points) top = std::max(top, p.y);

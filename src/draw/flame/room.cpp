@@ -61,8 +61,7 @@ float pane_at(float x, float y) {
   return bar(u) * bar(v);
 }
 
-// A pixel's position on the table in model units. The origin is in the middle of the picture, as deep as a candle's
-// foot.
+// A pixel's position on the table, model units; the origin is in mid-picture, as deep as a candle's foot.
 struct TableSpot {
   float x = 0;
   float z = 0;  // towards the eye

@@ -59,7 +59,6 @@ bool is_drawable(const LeafPose& pose) {
   return std::isfinite(sum) && std::isfinite(square) && square > 1e-12F;
 }
 
-// Returns the style with its fields clamped to their ranges.
 LeafStyle clamped(LeafStyle style) {
   style.length = std::clamp(style.length, 0.001F, 100.0F);
   style.width = std::clamp(style.width, 0.001F, 100.0F);
@@ -93,8 +92,7 @@ Image empty_room(int width, int height, const LeafCamera& camera, const LeafRoom
   return image;
 }
 
-// Returns the height of the card over the leaf's plane, in half lengths, for a leaf that folds up along the midrib and
-// droops at its ends.
+// Returns the card's height over the leaf's plane, in half lengths: the leaf folds up along the midrib, its ends droop.
 float bulge(float x, float y, float curl) {
   const float fold = 0.20F * std::sqrt(y * y + 0.01F);
   const float hang = x > -1 ? -0.12F * x * x : -0.12F - 0.30F * (x + 1) * (x + 1) + 0.24F * (x + 1);

@@ -87,8 +87,7 @@ struct LeafPlace {
   float u = 0, v = 0;
 };
 
-// Returns the position on the leaf at x and y, in halves of the blade's length and width; empty beside the leaf.
-// `slim`: the blade's width / length.
+// Returns the place on the leaf at x, y (halves of blade length and width), if any; `slim`: the blade's width / length.
 std::optional<LeafPlace> place_at(float x, float y, float slim) {
   const float u = (x + 1) / 2;
   if (u >= 0) {

@@ -22,9 +22,7 @@ struct Texture {
   std::vector<Level> levels;
 };
 
-/// Builds the smaller sizes of a picture.
-///
-/// Precondition: the picture has at least one pixel and width × height of them.
+/// Builds the smaller sizes of a picture. Precondition: it has at least one pixel and width × height of them.
 Texture texture_of(Texture::Level picture);
 
 /// A triangle corner: position in the image, position in the texture (shares of the size, 0 … 1), and brightness.

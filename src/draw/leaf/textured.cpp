@@ -40,8 +40,7 @@ void lay(std::uint32_t& pixel, std::uint32_t colour, std::uint32_t light, std::u
   pixel = std::min(255U, solid + behind) << 24 | channel(16) << 16 | channel(8) << 8 | channel(0);
 }
 
-// Edge function of one side of a triangle, non-negative inside. It increases by `right` per pixel and by `down` per
-// row.
+// Edge function of one side of a triangle, non-negative inside; increases by `right` per pixel, by `down` per row.
 struct Side {
   Side(const std::array<int, 2>& p, const std::array<int, 2>& q, int x, int y) {
     const int dx = q[0] - p[0], dy = q[1] - p[1];

@@ -92,8 +92,7 @@ void draw_sheet(cairo_t* context, const PlotSheet& sheet, const SheetLayout& at)
   }
 }
 
-// Cairo numbers SVG elements across the life of the program. Renumbering from 1 in each file makes the same plot the
-// same bytes.
+// Cairo numbers SVG elements across the program's life; numbers from 1 in each file make equal plots equal bytes.
 std::string with_own_numbers(const std::string& svg, std::string_view name) {
   std::string text;
   std::vector<std::string> seen;

@@ -26,8 +26,7 @@ struct Axes {
   Ticks y_ticks;
 };
 
-/// Computes the range of the data and the space for labels in a panel of that size, whose data area begins at `left` or
-/// farther right.
+/// Computes data ranges and label space of a panel of that size, whose data area begins at `left` or farther right.
 Axes make_axes(cairo_t* context, const Plot& plot, double width, double height, double left = 0);
 
 void draw_title(cairo_t* context, const std::string& title, const PlotBox& box);

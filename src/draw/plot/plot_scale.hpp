@@ -31,7 +31,6 @@ struct Ticks {
 /// Returns ticks at round values over the scale, about `wanted` (clamped to 2 … 20).
 Ticks make_ticks(const Scale& scale, int wanted, bool whole_numbers);
 
-/// Determines the range of data.
 class Extent {
  public:
   /// Includes a value in the range, unless the axis cannot show it.

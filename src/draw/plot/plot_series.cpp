@@ -46,8 +46,7 @@ bool dense(const PlotSeries& series, const Scale& x) {
   return static_cast<double>(size_of(series)) > kDensest * width && std::is_sorted(series.x.begin(), series.x.end());
 }
 
-// Draws the first, lowest, highest and last sample of each narrow column: the same picture to the eye in a smaller
-// file.
+// Draws each narrow column's first, lowest, highest and last sample: to the eye the same picture, in a smaller file.
 void trace_envelope(cairo_t* context, const PlotSeries& series, const Scale& x, const Scale& y) {
   const std::size_t size = size_of(series);
   for (std::size_t k = 0; k < size;) {

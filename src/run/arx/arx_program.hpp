@@ -66,11 +66,9 @@ float kept(double value);
 /// Appends the weights unless they are zero in every mode.
 void keep(std::vector<ModeWeights>& list, ModeWeights weights);
 
-/// Takes the program's arrays from the arena and, unless the arena only measures, fills them.
 ArxProgram make_arx_program(const Model& model, const ArxModel& arx, Arena& arena);
 ArxProgram make_arx_program(const Model& model, const SwitchedArxModel& switched, Arena& arena);
 
-/// Hashes the program, continuing from the hash `before`.
 std::uint64_t hash_of(const ArxProgram& program, std::uint64_t before);
 
 /// Checks that no step can overflow single precision. Errors: coefficients too large for that.

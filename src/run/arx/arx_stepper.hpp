@@ -57,7 +57,6 @@ class ArxStepper : public ChannelHistory<N> {
     noisy_ = std::find(shaken_.begin(), shaken_.end(), std::uint8_t{1}) != shaken_.end();
   }
 
-  /// Advances every block's ring by `samples`; the newest sample is then still to be computed.
   void turn(int samples = 1) {
     ChannelHistory<N>::turn(samples);
     resampled_.turn(samples);
@@ -149,9 +148,8 @@ class ArxStepper : public ChannelHistory<N> {
   /// Returns the number of state variables of one lane.
   std::size_t lane_values() const { return modes_.lane_values() + resampled_.lane_values() + this->history_values(); }
 
-  /// Calls visit(value, low, high) for each state variable of one lane, or visit(value, low, high, step) for those
-  /// restricted to low plus multiples of `step`, in an order independent of the ring position. Used to save, check and
-  /// restore the state.
+  /// Calls visit(value, low, high) or, for values restricted to low plus multiples of `step`, visit(value, low, high,
+  /// step) for a lane's state variables, in an order independent of the ring position: to save, check and restore it.
   template <class Visit>
   void visit_lane(int block, int lane, Visit visit) {
     std::fill_n(quiet_.begin() + block * program_.regressors, program_.regressors, 0);  // visit may change the history
@@ -161,7 +159,6 @@ class ArxStepper : public ChannelHistory<N> {
     this->visit_history(block, lane, visit);
   }
 
-  /// Continues the hash that identifies the model.
   std::uint64_t hash(std::uint64_t before) const { return modes_.hash(hash_of(program_, before)); }
 
  private:
@@ -196,8 +193,7 @@ class ArxStepper : public ChannelHistory<N> {
     BlockPlaces<Real, kBlocks> output(int i) const { return {newest + i * kLanes, stride}; }
   };
 
-  // Whether two outputs with equal taps are computed at once: only if registers hold both sums and as many other
-  // values.
+  // Whether outputs with equal taps are computed in pairs: only if registers hold both sums and as many other values.
   template <int kBlocks>
   static constexpr bool kTwins = kGroup > 1 && 4 * PartsOfBlocks<N, kBlocks>::kParts <= kVectorRegisters;
 
@@ -345,8 +341,7 @@ class ArxStepper : public ChannelHistory<N> {
     return choice.template pick<Values>(program_.constant.data() + i * modes_.count());
   }
 
-  // Writes the initial sums of all outputs, the last output first: a sum overwrites its output's standard normal
-  // number, which later outputs also use.
+  // Writes all outputs' initial sums, the last first: a sum overwrites its normal number, which later outputs use.
   void start_all(int block, const Choice& choice) {
     Real* newest = ring_.sample(block, 0);
     for (int i = program_.outputs - 1; i >= 0; --i) store(start_shaken(block, choice, i), newest + i * kLanes);

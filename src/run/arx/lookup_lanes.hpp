@@ -1,11 +1,10 @@
 #pragma once
 // Searches for the row to jump to from the end of the current block of rows (played consecutively), lane by lane: a row
 // that is near in position and speed, not played recently, preferably in a little-used part. Since a block's end is
-// known at its beginning, a few candidates are compared per step, which bounds the cost of a step.
-//
-// Sources: A. Schödl, R. Szeliski, D. Salesin, I. Essa, "Video Textures", SIGGRAPH 2000; for the penalty of repeated
-// play, W. Li, X. Chen, P. Li, O. Sorkine-Hornung, B. Chen, "Example-Based Motion Synthesis via Generative Motion
-// Matching", SIGGRAPH 2023, whose bidirectional similarity requires that all of an example is used.
+// known at its beginning, a few candidates are compared per step, which bounds the cost of a step. Sources: A. Schödl,
+// R. Szeliski, D. Salesin, I. Essa, "Video Textures", SIGGRAPH 2000; for the penalty of repeated play, W. Li, X. Chen,
+// P. Li, O. Sorkine-Hornung, B. Chen, "Example-Based Motion Synthesis via Generative Motion Matching", SIGGRAPH 2023,
+// whose bidirectional similarity requires that all of an example is used.
 
 #include <algorithm>
 #include <cstdint>

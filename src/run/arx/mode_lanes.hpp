@@ -24,10 +24,8 @@ struct ModeProgram {
   std::span<std::uint32_t> thresholds;
 };
 
-/// Takes the program's arrays from the arena and, unless the arena only measures, fills them.
 ModeProgram make_mode_program(const SwitchedArxModel& switched, Arena& arena);
 
-/// Hashes the program, continuing from the hash `before`.
 std::uint64_t hash_of(const ModeProgram& program, std::uint64_t before);
 
 /// Modes of a plain ARX model: no choice and no state.
@@ -80,7 +78,6 @@ class ModeLanes {
 
   static constexpr int kGroup = 1;
 
-  /// Every lane's mode in this step.
   struct Choice {
     std::uint32_t mode[kLanes];
 
@@ -101,10 +98,8 @@ class ModeLanes {
     return choice;
   }
 
-  /// Starts a lane: it has no mode before its first step.
   void start(int block, int lane) { modes_[block * kLanes + lane] = Real(kNoMode); }
 
-  /// Returns the mode that made the newest sample; none before the first step.
   std::optional<int> mode(int block, int lane) const {
     const int mode = static_cast<int>(value_of(modes_[block * kLanes + lane]));
     if (mode < 0) return {};

@@ -72,8 +72,7 @@ class ResampledLanes {
   /// Advances every block's input past by `samples`.
   void turn(int samples = 1) { past_.turn(samples); }
 
-  /// Records a block's driving input, given all regressors, [regressor][lane]; called in every step, even without
-  /// noise.
+  /// Records a block's driving input, given all regressors, [regressor][lane]; called in every step, even if noiseless.
   void hear(int block, const Real* regressors) {
     if (!program_.driven()) return;
     for (int k = 0; k < lives(); ++k, regressors += kVectorRegressors * kLanes) {
@@ -147,8 +146,7 @@ class ResampledLanes {
 
   static constexpr int kVectorRegressors = 3;  // regressors per component of a vector
 
-  // A search for rows: number 0 finds residuals along the wind; number 1, for a body only, residuals across the wind.
-  // `at`: index of the search's state.
+  // A search for rows: 0 finds residuals along the wind; 1, for a body only, across it. `at`: index of its state.
   struct Life {
     int block;
     int at;
@@ -189,8 +187,7 @@ class ResampledLanes {
     }
   }
 
-  // Computes a body lane's residuals: one row along the wind, another across it, each rotated to the wind's direction
-  // at the jump to that row.
+  // Computes a body lane's residuals from the rows of both searches.
   void turn_row(int block, int lane) {
     const std::uint32_t other = whole(state(blocks_ + block, kPlace)[lane]);
     const float *along = program_.played(whole(state(block, kPlace)[lane]) / 2 * 2), *across = program_.played(other);
@@ -423,8 +420,7 @@ class ResampledLanes {
     }
   }
 
-  // Distance and candidate index of the nearest rows of a leaf, nearest first, for every seeker. Candidates of equal
-  // distance are in the order of their index.
+  // For every seeker, distance and index of a leaf's nearest rows, nearest first; equal ones in the order of indices.
   struct Nearest {
     float apart[kNearestRows][kLanes];
     float candidate[kNearestRows][kLanes];

@@ -313,8 +313,7 @@ void fill_places(const Model& model, std::span<const std::uint32_t> left, Lookup
   }
 }
 
-// Compiles the lookup for residuals without a driving input; arrays are not filled while the arena only measures.
-// `left`: per row, the number of rows that follow in its stretch; empty while measuring.
+// Compiles the lookup without a driving input. `left`: per row, how many follow in its stretch; empty while measuring.
 LookupProgram make_lookup_program(const Model& model, const ArxModel& arx, std::span<const std::uint32_t> left,
                                   Arena& arena) {
   const ResampledResiduals& resampled = arx.noise.resampled;

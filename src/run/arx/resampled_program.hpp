@@ -97,8 +97,6 @@ struct ResampledProgram {
   }
 };
 
-/// Takes the program's arrays from the arena and, unless the arena only measures, fills them.
-///
 /// Precondition: the model has passed check().
 ResampledProgram make_resampled_program(const Model& model, const ArxModel& arx, Arena& arena);
 

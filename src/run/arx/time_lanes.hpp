@@ -41,9 +41,7 @@ class TimeLanes {
     }
   }
 
-  /// Copies the history back to the ring; its sample at lag 0 is that of the last step made.
-  ///
-  /// Precondition: since begin() two steps or more were made.
+  /// Copies the history back to the ring; lag 0 is the last step made. Precondition: 2 or more steps since begin().
   void end(SampleRing<N>& ring) const {
     for (int lag = 0; lag < past_; ++lag) {
       Real* sample = ring.sample(0, static_cast<std::uint32_t>(lag));

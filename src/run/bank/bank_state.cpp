@@ -101,8 +101,7 @@ void Bank::State::start(int slot) {
   show_block(block);
 }
 
-// Relights an instance. Its dynamics restart at the operating point. Its random stream continues, so that the flame
-// does not repeat its first flicker.
+// Restarts the dynamics at the operating point. The random stream goes on, so that the first flicker is not repeated.
 void Bank::State::relight(int slot) {
   if (burns(slot)) return;
   const int block = slot / kLanes, lane = slot % kLanes;
@@ -236,8 +235,7 @@ std::size_t record_size(const Bank::State& s) {
 
 bool within(float value, float low, float high) { return value >= low && value <= high; }
 
-// Returns whether `value` is `low` plus a whole number of steps; always true if `step` is 0. Counters and indices in a
-// bank are small enough to be exact in single precision.
+// Returns whether `value` is `low` plus whole steps, or `step` is 0. A bank's counters and indices are exact as floats.
 bool on_grid(float value, float low, float step) { return !(step > 0) || std::fmod(value - low, step) == 0; }
 
 // Writes or reads a slot's record. On reading, a first pass checks that save() could have written it, a second one

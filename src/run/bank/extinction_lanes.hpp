@@ -1,8 +1,7 @@
 #pragma once
-// The rule of extinction (wisp/model/extinction.hpp), applied block by block.
-//
-// The state of an instance: damage, 0 … 1; whether it is lit, 1 or 0; and the size at which it is drawn, 0 … 1. A step
-// takes three operations, and one to read a scalar wind; in an event, more for each component and displayed output.
+// The rule of extinction (wisp/model/extinction.hpp), applied block by block. The state of an instance: damage, 0 … 1;
+// whether it is lit, 1 or 0; and the size at which it is drawn, 0 … 1. A step takes three operations, and one to read a
+// scalar wind; in an event, more for each component and displayed output.
 
 #include <cstdint>
 #include <span>
@@ -39,7 +38,6 @@ inline constexpr float kEventEnds = -1;
 /// Index into `sizes` that stands for no event.
 inline constexpr float kNoEvent = 0;
 
-/// Takes the program's arrays from the arena and, unless the arena only measures, fills them.
 ExtinctionProgram make_extinction_program(const Model& model, Arena& arena);
 
 /// Hashes the program, continuing from the hash `before`; returns `before` without a rule.
@@ -92,7 +90,6 @@ inline void shrink(const Reals<N>& size, std::size_t outputs, typename N::Real* 
   }
 }
 
-/// Interpolates the size between two steps.
 template <class N>
 inline Reals<N> size_between(const Reals<N>& from, const Reals<N>& to, float share) {
   return from + all<Reals<N>>(share) * (to - from);

@@ -2,7 +2,6 @@
 // The outlines of a block of instances as polylines, by forward differences: within one knot span a point takes three
 // additions per coordinate, where four basis weights take seven operations. Source: C. de Boor, A Practical Guide to
 // Splines, chapter X (the coefficients of derivatives); differences from Taylor's series, which is finite for a cubic.
-//
 // Rounding errors accumulate in differences, so they restart in every span, and after every run of kLongestRun points.
 
 #include <cstdint>
@@ -41,9 +40,7 @@ struct PolylineProgram {
   std::span<PolylineRun> runs;
 };
 
-/// Compiles an outline for `points` points at equal steps of the spline's parameter, with arrays from the arena.
-///
-/// Precondition: points >= 2.
+/// Compiles an outline for `points` points at equal steps of the spline's parameter. Precondition: points >= 2.
 PolylineProgram make_polyline(const OutlineView& view, int points, Arena& arena);
 
 /// Calls show(point, values) for one coordinate (0: x, 1: y) of every point; `controls`: [control point][x, y][lane].

@@ -1,6 +1,5 @@
 #pragma once
-// Steppers of all kinds of dynamics. A new kind needs a stepper in a file of its own, with the public functions of
-// ArxStepper, and its entries here.
+// Steppers of all dynamics. A new kind needs a stepper file with ArxStepper's public functions, and entries here.
 
 #include <type_traits>
 #include <variant>

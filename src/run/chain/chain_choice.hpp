@@ -1,6 +1,5 @@
 #pragma once
-// Choice of a chain's next segment: a mode given the previous ones, then a segment of that mode, by counter-based
-// random words. Choices use integer arithmetic only.
+// Choice of a chain's next mode, given earlier ones, then of its segment, by counter-based random words, in integers.
 
 #include <cstdint>
 
@@ -49,8 +48,7 @@ class ChainChoice {
     return static_cast<float>(width) * (1.0f / 4294967296.0f);
   }
 
-  /// Returns candidate k among a mode's segments: the k-th best-joining one or, without such lists, one drawn by
-  /// `words`.
+  /// Returns candidate k of a mode's segments: the k-th best-joining one or, without such lists, one drawn by `words`.
   std::uint32_t candidate(const ChainProgram& program, std::uint32_t before, std::uint32_t mode, std::uint32_t k,
                           const ChainWords& words) const {
     if (program.breadth == 0) return any(program, mode, words.segment + k * 0x9E3779B9U);

@@ -238,7 +238,6 @@ class ChainMover {
     return {last, number(blend), number(steps - blend), turn, number(steps - blend) + turn, number(steps - blend)};
   }
 
-  /// Returns the number of steps left in the lane's segment.
   std::uint32_t steps_left(const Lane& lane) const {
     const std::uint32_t steps = program_.steps(index(lane.segment, program_.segments()));
     return steps - index(lane.row, steps + 1);

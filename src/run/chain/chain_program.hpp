@@ -90,7 +90,6 @@ ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, double 
 /// Sets the size of the program's body from a PoseView; other views change nothing.
 void take_size(const View& view, ChainProgram& program);
 
-/// Hashes the program, continuing from the hash `before`.
 std::uint64_t hash_of(const ChainProgram& program, std::uint64_t before);
 
 /// Checks the scales. Errors: one so small or large that products leave the range of single precision.

@@ -86,8 +86,7 @@ class ChainSteering {
     Real miss{};  // half the squared distance from the target, in variances
   };
 
-  // 1 / (2 · variance) of a walk's position at the target time. One value for all candidates of a join, since otherwise
-  // far targets would favour short segments.
+  // 1 / (2 · variance) of the position at the target time, one per join: else far targets would favour short segments.
   struct Bell {
     Real ground{};
     Real height{};

@@ -42,7 +42,6 @@ class ChainStepper : private ChainLives<N> {
             std::span(kOrigin).first(chain.gust ? 3 : 0)};
   }
 
-  /// Errors: scales so small or large that products leave the range of single precision.
   static Result<void> check(const Model&, const ChainModel& chain) { return check_chain_program(chain); }
 
   ChainStepper(const Model& model, const ChainModel& chain, const Channels&, int blocks, Arena& arena)
@@ -72,7 +71,6 @@ class ChainStepper : private ChainLives<N> {
   /// Returns this stepper, which can step some blocks ahead of others, since blocks share no ring position.
   ChainStepper& ahead() { return *this; }
 
-  /// Computes the newest sample of a block.
   void step(int block, const Moment<N>& moment) { step(block, 1, moment); }
 
   /// Computes the newest samples of `count` <= kGroup consecutive blocks; `moment` is that of the first block.
@@ -95,8 +93,7 @@ class ChainStepper : private ChainLives<N> {
     copy_sample(newest(block), sample_size(), out);
   }
 
-  /// Reads outputs interpolated by `share` from the sample before: positions linearly, orientations by normalised
-  /// linear interpolation.
+  /// Reads outputs interpolated by `share` from the sample before: linearly, orientations then normalised.
   template <int kBlocks = 1>
   void show_between(int block, float share, Real* out) const {
     const Real *from = previous(block), *to = newest(block);
@@ -163,9 +160,7 @@ class ChainStepper : private ChainLives<N> {
 
   bool can_steer() const { return !program_.lead.empty(); }
 
-  /// Steers a lane towards a target to be reached in `steps` steps; 0: cancels steering.
-  ///
-  /// Precondition: can_steer().
+  /// Steers a lane towards a target to be reached in `steps` steps; 0: cancels steering. Precondition: can_steer().
   void steer(int block, int lane, const Vector3<Real>& target, float steps, float near) {
     plan_of(block, lane).target = target;
     plan_of(block, lane).near = Real(near);
@@ -244,7 +239,6 @@ class ChainStepper : private ChainLives<N> {
     }
   }
 
-  /// Continues the hash that identifies the model.
   std::uint64_t hash(std::uint64_t before) const { return hash_of(program_, before); }
 
  private:
@@ -364,8 +358,7 @@ class ChainStepper : private ChainLives<N> {
     }
   }
 
-  // Finds the lanes that need more than display and joining, since they come to rest, are too far away, or near the
-  // ground. Returns whether there are such lanes.
+  // Finds lanes that come to rest, are too far away or near the ground, and so need more work. Returns whether any do.
   bool find_events(int block, const ChainCourse<N>& course, Real (&eventful)[kLanes]) {
     const auto zero = all<Reals<N>>(0.0f), one = all<Reals<N>>(1.0f), used = load<Reals<N>>(course.used);
     const auto inside = [](const auto& x, const auto& low, const auto& high, const auto& yes, const auto& no) {
@@ -487,10 +480,8 @@ class ChainStepper : private ChainLives<N> {
 
   Joining joining() { return {*this, choice_, steering_}; }
 
-  // Begins the offset curves towards the next segments.
   void leave(const Party& party, int, const Moment<N>&) { joining().leave(party); }
 
-  // Joins lanes whose segments have ended to the next ones.
   void go_on(const Party& party, int first, const Moment<N>& moment) { joining().follow(party, first, moment); }
 
   // Stores a new lane's first sample as its previous one, too.

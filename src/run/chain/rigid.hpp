@@ -1,9 +1,7 @@
 #pragma once
 // Positions and rotations of rigid bodies, for any number type. Only + − × ÷ and square root, in the order written, so
-// that results have the same bits everywhere.
-//
-// Quaternions are w, x, y, z and rotate body axes to world axes. Rotations of an orientation are Gibbs vectors, the
-// axis times the tangent of half the angle: scaling one needs no trigonometry.
+// that results have the same bits everywhere. Quaternions are w, x, y, z and rotate body axes to world axes. Rotations
+// of an orientation are Gibbs vectors, the axis times the tangent of half the angle: scaling one needs no trigonometry.
 
 #include <array>
 

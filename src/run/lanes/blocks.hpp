@@ -1,6 +1,5 @@
 #pragma once
-// Values of several consecutive blocks, which a kernel computes together. Each lane's operations are the same as when
-// its block is computed alone.
+// Values of consecutive blocks, computed together, each lane by the same operations as when its block is alone.
 
 #include <cstddef>
 
@@ -50,7 +49,6 @@ inline void store_block_part(const Part& part, const BlockPlaces<Value, kBlocks>
   std::memcpy(static_cast<void*>(first), static_cast<const void*>(&part), sizeof part);
 }
 
-/// Load and store all parts of the blocks.
 template <class N, class Packed, class Value, int kBlocks>
 inline Packed load_blocks(const BlockPlaces<Value, kBlocks>& places) {
   Packed out;

@@ -1,6 +1,5 @@
 #pragma once
-// Number and word types that count the arithmetic done with them. Kernels are instantiated with these types to measure
-// their cost.
+// Number and word types that count the arithmetic done with them: kernels are instantiated with them to measure cost.
 
 #include <cmath>
 #include <cstdint>
@@ -58,8 +57,7 @@ inline CountingWord operator+(CountingWord a, CountingWord b) { return counted(a
 inline CountingWord operator-(CountingWord a, CountingWord b) { return counted(a.value - b.value); }
 inline CountingWord operator<<(CountingWord a, int bits) { return counted(a.value << bits); }
 
-// Conversions and comparisons, as in lanes.hpp for live numbers. They do not count as arithmetic; a signed shift and a
-// wide product do.
+// Conversions and comparisons, as in lanes.hpp: not counted as arithmetic, unlike a signed shift and a wide product.
 
 inline CountingReal real_of_part(CountingWord word) {
   return CountingReal(static_cast<float>(static_cast<std::int32_t>(word.value)));

@@ -1,10 +1,9 @@
 #pragma once
-// Number types of kernels, and the number of instances that a kernel processes in parallel.
-//
-// A block is kLanes instances. All its data is laid out as [variable][lane], and a kernel does the same operations in
-// the same order in every lane. Lanes are elements of the compilers' vector types, since gcc 12 and clang 14 unroll
-// plain loops over eight lanes first and then vectorise the pieces poorly (measured: three times slower). The width of
-// the machine's vectors changes no bit of a result.
+// Number types of kernels, and the number of instances that a kernel processes in parallel. A block is kLanes
+// instances. All its data is laid out as [variable][lane], and a kernel does the same operations in the same order in
+// every lane. Lanes are elements of the compilers' vector types, since gcc 12 and clang 14 unroll plain loops over
+// eight lanes first and then vectorise the pieces poorly (measured: three times slower). The width of the machine's
+// vectors changes no bit of a result.
 
 #include <bit>
 #include <cfloat>

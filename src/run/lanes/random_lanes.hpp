@@ -129,10 +129,8 @@ WISP_UNROLLED inline Values polynomial(const Values& x, const float (&c)[count])
 /// uniformly random direction, at distance √(−2 ln u) from the origin. Of the word, bits 0 to 19 are u, (k + ½) / 2²⁰;
 /// 21 to 31 a direction of the right half plane, π (k + ½) / 2¹¹ with k from −1024 to 1023; bit 20 inverts it. −2 ln,
 /// sine and cosine are replaced by the minimax polynomials of their degrees, with errors up to 3.0e-6, 6.0e-7 and
-/// 6.8e-6; each deviate is within 4e-5 of the exact one, and their distribution within 1e-5.
-///
-/// Source: G. E. P. Box & M. E. Muller, A note on the generation of random normal deviates, Annals of Mathematical
-/// Statistics 29, 1958.
+/// 6.8e-6; each deviate is within 4e-5 of the exact one, and their distribution within 1e-5. Source: G. E. P. Box & M.
+/// E. Muller, A note on the generation of random normal deviates, Annals of Mathematical Statistics 29, 1958.
 template <class Word, int kParts>
 WISP_UNROLLED inline auto normal_lanes(const Pack<Word, kParts>& words) {
   using Bits = Pack<Word, kParts>;

@@ -1,6 +1,6 @@
 #pragma once
 // Allocates arrays in one piece of memory. An arena without memory only adds up the sizes of the arrays, so that the
-// same code measures and allocates.
+// same code measures and allocates. Functions make_… fill their arrays only if there is memory.
 
 #include <cassert>
 #include <cstddef>
@@ -19,7 +19,6 @@ class Arena {
   /// Creates an arena that only measures.
   Arena() = default;
 
-  /// Creates an arena that allocates in `memory`.
   explicit Arena(std::span<std::byte> memory)
       : start_(memory.data()), used_(padding(memory.data())), size_(memory.size()) {}
 

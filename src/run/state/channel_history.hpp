@@ -1,6 +1,5 @@
 #pragma once
-// Common part of the steppers of ARX kinds: histories whose samples are a model's channels (outputs, then regressors),
-// and the reading of outputs.
+// Common part of the ARX steppers: histories of a model's channels (outputs, then regressors), and reading of outputs.
 
 #include <cstdint>
 
@@ -21,7 +20,6 @@ class ChannelHistory {
   ChannelHistory(const Program& program, const Channels& channels, int blocks, Arena& arena)
       : channels_(channels), ring_(blocks, program.depth, program.outputs + program.regressors, arena) {}
 
-  /// Advances every block's history by `samples`; the newest sample is then still to be computed.
   void turn(int samples = 1) { ring_.turn(samples); }
 
   /// Returns whether blocks should be prefetched before they are stepped: true if the ring exceeds kNearBytes in total.
@@ -35,8 +33,7 @@ class ChannelHistory {
   const Real* newest(int block) const { return ring_.sample(block, 0); }
   const Real* previous(int block) const { return ring_.sample(block, 1); }
 
-  /// Reads the outputs of kBlocks consecutive blocks: the newest samples, or interpolated by `share` from the samples
-  /// before.
+  /// Reads the outputs of kBlocks consecutive blocks: the newest, or interpolated by `share` from the samples before.
   template <int kBlocks = 1>
   void show(int block, Real* out) const {
     const BlockPlaces<const Real, kBlocks> to(newest(block), ring_.stride());
@@ -75,8 +72,7 @@ class ChannelHistory {
     return static_cast<std::size_t>(ring_.depth()) * (channels_.outputs.size() + channels_.regressors.size());
   }
 
-  /// Calls visit(value, low, high) for each number of a lane's history, newest first, independent of the position in
-  /// the ring.
+  /// Calls visit(value, low, high) for each number of a lane's history, newest first, whatever the ring's position.
   template <class Visit>
   void visit_history(int block, int lane, Visit visit) {
     for (int lag = 0; lag < ring_.depth(); ++lag) {

@@ -66,8 +66,7 @@ double channel_scale(double lowest, double highest);
 /// Returns the unit of a regressor, given its index among the regressors of all inputs.
 double regressor_scale(const Model& model, int regressor);
 
-/// Returns the ranges of the dynamics' variables: the components of an outline's shape if there are some, else the
-/// outputs.
+/// Returns the ranges of the dynamics' variables: the components of an outline's shape, if any, else the outputs.
 std::vector<ValueRange> moved_ranges(const Model& model);
 
 /// The operating point of a model's dynamics, per channel.
@@ -76,13 +75,11 @@ struct OperatingPoint {
   std::span<const double> regressors;
 };
 
-/// Takes the channels' arrays from the arena and, unless the arena only measures, fills them.
 Channels make_channels(const Model& model, const OperatingPoint& point, Arena& arena);
 
 /// Errors: a range or mean too large or small for single precision, a reversed range, a nonzero mean of a wind vector.
 Result<void> check_channels(const Model& model, const OperatingPoint& point);
 
-/// Hashes the channels, continuing from the hash `before`.
 std::uint64_t hash_of(const Channels& channels, std::uint64_t before);
 
 /// Returns the root or square, as the channel demands, of magnitudes of its input, in the regressor's unit.
@@ -137,8 +134,7 @@ struct LevelVector {
   Reals<N> length, x, z;
 };
 
-/// Computes a block's regressors from lanes_of(input). Call it for the regressors in order: a vector is decomposed at
-/// its first one.
+/// Computes a block's regressors from lanes_of(input), to be called in order: a vector is decomposed at its first one.
 template <class N, class LanesOf>
 class Regressing {
  public:

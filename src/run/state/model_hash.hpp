@@ -11,9 +11,7 @@
 
 namespace wisp {
 
-/// Writes consecutive numbers.
-///
-/// Precondition: `at` has room for them.
+/// Writes consecutive numbers. Precondition: `at` has room for them.
 class ByteWriter {
  public:
   explicit ByteWriter(std::byte* at) : at_(at) {}
@@ -30,9 +28,7 @@ class ByteWriter {
   std::byte* at_;
 };
 
-/// Reads consecutive numbers.
-///
-/// Precondition: `at` holds them.
+/// Reads consecutive numbers. Precondition: `at` holds them.
 class ByteReader {
  public:
   explicit ByteReader(const std::byte* at) : at_(at) {}

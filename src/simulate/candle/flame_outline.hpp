@@ -33,16 +33,13 @@ struct FlameOutline {
   double brightness = 0;                ///< light summed over the whole grid, in mm² of unit light
 };
 
-/// Extracts the outline from a frame's light.
-///
-/// Precondition: light.soot has columns × rows entries; columns and rows are at least 4.
+/// Extracts a frame's outline. Precondition: light.soot has columns × rows entries; columns and rows are at least 4.
 FlameOutline flame_outline(const RigLight& light);
 
 namespace flow {
 
 /// Returns all closed contours at a level, each with the higher values on its right (clockwise around a hill, y up), in
 /// the lattice's own units: value (i, j) is at x = i, y = j. Contours that end at the lattice's rim are omitted.
-///
 /// Precondition: values.size() == columns × rows.
 std::vector<std::vector<PointMm>> closed_contours(std::span<const float> values, int columns, int rows, float level);
 

@@ -116,8 +116,7 @@ float smoothstep(float x, float a, float width) {
   return t * t * (3.0F - 2.0F * t);
 }
 
-// Approximates 1 − e^(−x) for x ≥ 0, to 0.2 % at 1 and never above 1, without a library's exponential, whose bits
-// differ between machines.
+// About 1 − e^(−x), x ≥ 0: to 0.2 % at 1, never above 1, without a library's exp, whose bits differ between machines.
 float share_of_step(float x) {
   return 1.0F - 1.0F / (1.0F + x * (1.0F + x * (0.5F + x * (1.0F / 6 + x * (1.0F / 24)))));
 }
@@ -276,8 +275,7 @@ void trace(const FlowGrid& grid, const Plane& u, const Plane& v, float step, Pla
 void advect(const FlowGrid& grid, const Plane& way_x, const Plane& way_y, const ScalarPlane& from, ScalarPlane& to) {
   const auto right = static_cast<float>(grid.nx);
   const auto top = static_cast<float>(grid.ny);
-  // Fuel decays for ever, down to denormal numbers, which are a hundred times slower than others. Negligible values are
-  // rounded to zero.
+  // Rounded to zero: fuel decays for ever, down to denormal numbers, which are a hundred times slower than others.
   constexpr float kNothing = 1e-12F;
   for (int j = 0; j < grid.ny; ++j)
     for (int i = 0; i < grid.nx; ++i) {

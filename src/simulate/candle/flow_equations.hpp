@@ -64,8 +64,7 @@ struct Diffusion {
 /// largest product of step, scale and flux of a face.
 int rkl1_stages(float strength);
 
-/// Makes one step of diffusion in place. `scale` includes the step's length; `scratch` is as large as `values` and its
-/// border must hold finite numbers.
+/// Diffuses in place. `scale` includes the step's length; `scratch`: as large as `values`, with a finite border.
 void diffuse(const FlowGrid& grid, const Diffusion& diffusion, const Plane& scale, int stages, Plane& values,
              Plane& scratch);
 

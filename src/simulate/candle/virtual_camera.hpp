@@ -23,9 +23,8 @@ struct SamplePlaces {
 /// outside of the axis have no weight.
 SamplePlaces sample_places(int count, double start, double step, int cells);
 
-/// Interpolates one row from four rows of `columns` values.
-///
-/// Precondition: out has `columns` entries, values at least columns × (highest used row + 1).
+/// Interpolates one row from four rows of `columns` values. Precondition: out has `columns` entries, values at least
+/// columns × (highest used row + 1).
 void mix_rows(std::span<const float> values, int columns, const SamplePlaces& rows, int row, std::span<float> out);
 
 /// Returns one sample of an interpolated row.
@@ -52,9 +51,8 @@ class VirtualCamera {
   static Result<VirtualCamera> create(const VirtualCameraOptions& options = {});
 
   /// Returns the picture of a frame: rows from the top, one byte each of red, green and blue, width × height × 3 in
-  /// all. Valid until the next call. Equal light and frame number give equal bytes.
-  ///
-  /// Precondition: light.soot and light.blue have columns × rows entries.
+  /// all. Valid until the next call. Equal light and frame number give equal bytes. Precondition: light.soot and
+  /// light.blue have columns × rows entries.
   std::span<const std::uint8_t> picture(const RigLight& light, std::uint64_t frame);
 
   CameraView view() const { return view_; }

@@ -176,8 +176,7 @@ class Resonance {
   double a1_ = 0, a2_ = 0, gain_ = 0, y1_ = 0, y2_ = 0;
 };
 
-// Generates occasional sounds other than wind, of about unit level, with silence between: syllables of a voice, or a
-// few knocks on the table.
+// Occasional other sounds of about unit level, silence between: syllables of a voice, or a few knocks on the table.
 class OtherSounds {
  public:
   /// `a_second`: reciprocal of the mean pause between sounds, 1/s; 0: no sounds.

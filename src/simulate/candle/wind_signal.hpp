@@ -51,8 +51,7 @@ namespace wisp {
 /// A wind sampled at a fixed rate.
 class WindSignal {
  public:
-  /// Generates a wind, `seconds` long.
-  /// Errors: an option outside its range, or more than 86400 seconds.
+  /// Generates a wind, `seconds` long. Errors: an option outside its range, or more than 86400 seconds.
   static Result<WindSignal> generate(const WindSignalOptions& options, double seconds);
 
   /// Reads a recording's only input, in m/s, with missing samples interpolated linearly.
@@ -74,11 +73,9 @@ class WindSignal {
 };
 
 /// A microphone at the candle: sound of wind on its capsule, hiss, and occasional sounds other than wind. Made block by
-/// block; equal wind and seed give equal samples for any division into blocks.
-///
-/// Source: R. Raspet, G. Webster et al. on wind noise as stagnation pressure, and its account in Acoustics Today
-/// (2021): pressure is proportional to the square of the wind, its spectrum is flat below a corner and falls steeply
-/// above.
+/// block; equal wind and seed give equal samples for any division into blocks. Source: R. Raspet, G. Webster et al. on
+/// wind noise as stagnation pressure, and its account in Acoustics Today (2021): pressure is proportional to the square
+/// of the wind, its spectrum is flat below a corner and falls steeply above.
 class VirtualMicrophone {
  public:
   /// Errors: an option outside its range.
@@ -89,9 +86,7 @@ class VirtualMicrophone {
   ~VirtualMicrophone();
 
   /// Makes the next sound.size() samples, mono, clipped to ±1, as by a recorder. `wind` holds the wind in m/s at each
-  /// of them; its sign does not matter.
-  ///
-  /// Precondition: wind.size() == sound.size().
+  /// of them; its sign does not matter. Precondition: wind.size() == sound.size().
   void hear(std::span<const float> wind, std::span<float> sound);
 
  private:

@@ -57,9 +57,7 @@ inline Quaternion turning(const Quaternion& q, const Vec& spin) {
           w * h[2] + x * h[1] - y * h[0]};
 }
 
-/// Returns the quaternion normalised to length 1.
-///
-/// Precondition: not zero.
+/// Returns the quaternion normalised to length 1. Precondition: not zero.
 inline Quaternion normalised(const Quaternion& q) {
   const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
   return {q[0] / length, q[1] / length, q[2] / length, q[3] / length};
@@ -126,14 +124,10 @@ class LeafWind {
   /// Creates a sequence of random gusts for `seconds`, each in a random horizontal direction.
   static LeafWind gusty(std::uint64_t seed, double seconds);
 
-  /// Creates the sum of given gusts.
-  ///
-  /// Precondition: seconds > 0 and 0 < edge <= seconds / 2 for each.
+  /// Creates the sum of given gusts. Precondition: seconds > 0 and 0 < edge <= seconds / 2 for each.
   static LeafWind of_gusts(std::vector<Gust> gusts);
 
-  /// Creates a measured wind.
-  ///
-  /// Precondition: rate_hz > 0, all rows finite.
+  /// Creates a measured wind. Precondition: rate_hz > 0, all rows finite.
   static LeafWind of_track(MeasuredWind track);
 
   /// Returns the wind at `place` and its rate of change along the path of a leaf with velocity `moving` (world axes).
@@ -185,15 +179,11 @@ class LeafFlight {
  public:
   /// Starts a leaf in a state, at time 0; the wind is kept by reference and must outlive the flight. Steps are
   /// `longest_step` seconds at most, 1e-6 … 0.05, and shorter for narrow or light leaves and in strong wind, in inverse
-  /// proportion to its speed.
-  /// Errors: leaf or step out of range, a state that is not finite, an attitude of norm 0.
+  /// proportion to its speed. Errors: leaf or step out of range, a state that is not finite, an attitude of norm 0.
   static Result<LeafFlight> begin(const Leaf& leaf, const LeafWind& wind, const LeafState& state,
                                   double longest_step = 1.0 / 60);
 
-  /// Advances by `seconds`, divided into equal steps.
-  /// Errors: the leaf's state is no longer finite.
-  ///
-  /// Precondition: seconds > 0.
+  /// Advances by `seconds` > 0, in equal steps. Errors: the leaf's state is no longer finite.
   Result<void> advance(double seconds);
 
   const LeafState& state() const { return state_; }

@@ -126,8 +126,7 @@ class LiveCapture {
   OutlineCapture& picture() { return picture_; }
 
   /// Takes the next block of interleaved samples, full scale ±1, which begins `begin` seconds after the clip's first
-  /// frame (not the range's); negative: before it. The first block's format holds for all.
-  /// Errors: an unusable format.
+  /// frame (not the range's); negative: before it. The first block's format holds for all. Errors: an unusable format.
   Result<void> hear(const SoundFormat& format, double begin, std::span<const float> samples);
 
   /// Ends the clip; outlines of unevenly spaced frames are interpolated to their nominal times.

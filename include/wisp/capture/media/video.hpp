@@ -67,19 +67,16 @@ class VideoReader {
 
   const VideoInfo& info() const;
 
-  /// Returns the next frame, or nothing at the end.
-  /// Errors: an image that cannot be decoded or whose size differs from the first one's (both named), a pixel format
-  /// that FFmpeg cannot convert, a range that begins after a video's end. A broken frame inside a video is skipped and
-  /// reported by warnings().
+  /// Returns the next frame, or nothing at the end. Errors: an image that cannot be decoded or whose size differs from
+  /// the first one's (both named), a pixel format that FFmpeg cannot convert, a range that begins after a video's end.
+  /// A broken frame inside a video is skipped and reported by warnings().
   Result<std::optional<VideoFrame>> next();
 
   /// Returns up to `count` key frames spread over a video, or over its range if one is given, without affecting next().
   /// None for a folder of images; fewer or none where the file is not seekable.
   std::vector<OwnedPicture> glimpses(int count);
 
-  /// Returns the frame last returned by next(), as RGB.
-  ///
-  /// Precondition: next() has returned a frame.
+  /// Returns the frame last returned by next(), as RGB. Precondition: next() has returned a frame.
   RgbImage rgb();
 
   /// Returns the timing of the frames decoded so far, from the clip's first frame on; valid until the next call.

@@ -47,9 +47,7 @@ Region enclosing(const Region& a, const Region& b);
 /// Returns the rectangle enlarged by `margin` pixels on every side.
 Region grown(const Region& region, int margin);
 
-/// Returns a view of an image's part inside `region`, without copying.
-///
-/// Precondition: region lies inside the image.
+/// Returns a view of an image's part inside `region`, without copying. Precondition: region lies inside the image.
 ImageView crop(const ImageView& image, const Region& region);
 
 /// Channel of a picture whose brightness is analysed.

@@ -150,9 +150,7 @@ class OutlineCapture {
   ~OutlineCapture();
 
   /// Copies a picture from anywhere in the clip to the sample on which the first decisions are based, since these hold
-  /// for the whole clip. Without effect after them.
-  ///
-  /// Precondition: the picture has the size and layout of the frames.
+  /// for the whole clip. Without effect after them. Precondition: the picture has the size and layout of the frames.
   void glimpse(const Picture& picture);
 
   /// Takes the next frame; it is borrowed for the call.
@@ -170,8 +168,7 @@ class OutlineCapture {
   OutlineSeen seen() const;
 
   /// Ends the clip. Returns the recording: outputs p0.x, p0.y, … and motion base.x, base.y in pixels, flag `filled`,
-  /// one row per frame, missing rows NaN.
-  /// Errors: fewer than 10 frames with an outline, with the reason.
+  /// one row per frame, missing rows NaN. Errors: fewer than 10 frames with an outline, with the reason.
   Result<CapturedOutline> finish();
 
  private:

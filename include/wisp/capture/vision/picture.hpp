@@ -55,12 +55,10 @@ ImageView plane_in_place(const Picture& picture, PixelChannel channel);
 
 /// Computes `channel` over `region` into `out`, row by row, `region.width` bytes per row, in the stored range: limited
 /// for luma of a picture without full range, 0 to 255 for red, green and blue. Of a grey picture any channel is luma.
-///
 /// Precondition: region lies inside the picture and `out` holds region.width × region.height bytes.
 void extract_channel(const Picture& picture, PixelChannel channel, const Region& region, std::uint8_t* out);
 
 /// Like extract_channel(), for every `step`-th pixel of every `step`-th row, beginning with the region's first.
-///
 /// Precondition: those of extract_channel(), and step >= 1; `out` holds the number of pixels taken.
 void sample_channel(const Picture& picture, PixelChannel channel, const Region& region, int step, std::uint8_t* out);
 

@@ -94,8 +94,7 @@ std::vector<Track> linked(std::span<const Seen> frames, const Scale& scale) {
   return done;
 }
 
-// Returns the distance between two tracks, both extrapolated to the middle of the gap; negative if `after` does not
-// continue `before`.
+// Returns the distance of two tracks extrapolated to the gap's middle; negative if `after` does not continue `before`.
 double seam(const Track& before, const Track& after, const Scale& scale) {
   const double gap = static_cast<double>(after.frames.front()) - static_cast<double>(before.frames.back());
   if (std::abs(gap) > kJoinSeconds * scale.rate_hz) return -1;
@@ -118,8 +117,7 @@ void append(Track& before, const Track& after) {
   before.things.insert(before.things.end(), after.things.begin(), after.things.end());
 }
 
-// Tracks objects by nearest prediction at constant velocity. An object that is briefly invisible or splits briefly
-// stays one track.
+// Tracks objects by nearest prediction at constant velocity. One briefly invisible or split stays one track.
 std::vector<Track> tracks_in(std::span<const Seen> frames, const Scale& scale) {
   std::vector<Track> tracks = linked(frames, scale);
   std::erase_if(tracks, [](const Track& track) { return track.things.size() < kSteady; });

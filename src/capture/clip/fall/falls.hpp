@@ -81,8 +81,7 @@ struct Falls {
   std::vector<Cut> missed;  ///< reason for each fall that was not followed or that passes another object
 };
 
-/// Finds the falls in the frames: objects in view for at least 0.3 s and 8 frames that sink by at least a quarter of
-/// the picture's height.
+/// Finds falls: objects in view for at least 0.3 s and 8 frames that sink by at least 1/4 of the picture's height.
 Falls falls_in(std::span<const Seen> frames, const Scale& scale);
 
 struct Facts {
