@@ -19,9 +19,7 @@ describe('which one was filmed', { skip }, () => {
     // Both canvases show a flame.
     await seen('both burn', async () => (await painted(page, '.viewing canvas', 'bright')).every((bright) => bright > 150));
     const before = await pictures();
-    await page.waitForTimeout(400);
-    const after_ = await pictures();
-    assert.ok(before.every((picture, k) => picture !== after_[k]));
+    await seen('both move', async () => (await pictures()).every((picture, k) => picture !== before[k]));
     assert.ok(await page.$eval('.viewing', (dialog) => dialog.scrollWidth <= dialog.clientWidth));
   });
 
