@@ -1,10 +1,7 @@
 // Files dropped anywhere on the page.
 
 /** Dropped files, with directory entries where the browser provides them, so that folders can be read. */
-export interface Dropped {
-  files: File[];
-  entries: (FileSystemEntry | null)[];
-}
+export interface Dropped { files: File[]; entries: (FileSystemEntry | null)[] }
 
 export function watchDrops(curtain: HTMLElement, dropped: (what: Dropped) => void): void {
   let depth = 0;

@@ -49,7 +49,5 @@ export class Probe {
 }
 
 declare global {
-  interface Window {
-    wisp?: Probe;
-  }
+  interface Window { wisp?: Probe }
 }

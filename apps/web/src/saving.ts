@@ -1,5 +1,4 @@
-// Saves a still picture, or a film or GIF of some seconds in which the flame is blown out and lit again. Made locally;
-// nothing is sent.
+// Saves a still picture, or a film or GIF of some seconds in which the flame is blown out and lit again. Made locally; nothing is sent.
 
 import type { App } from './app.js';
 import { fetchPart } from './part.js';

@@ -74,8 +74,7 @@ describe('a candle that hears', { skip }, () => {
   });
 
   it('shows each block of sound in the first frame after it came', () => {
-    // Frames are counted, as times depend on the machine. The estimator's own frame and one step of the model are added
-    // to this latency.
+    // Frames are counted, as times depend on the machine. The estimator's own frame and one step of the model are added to this latency.
     const heard = course.filter(({ heardAtFrame }) => heardAtFrame > 0);
     assert.ok(heard.length > 50);
     for (const { heardAtFrame, usedAtFrame, frames } of heard) {

@@ -30,9 +30,7 @@ export interface FlameState extends Omit<at.Values<typeof at.flameState.fields>,
 export type ChainPlace = at.Values<typeof at.chainPlace.fields>;
 
 /** Settings of a chain. `ground`: height of level ground; null: none. */
-export interface ChainSettings {
-  ground: number | null;
-}
+export interface ChainSettings { ground: number | null }
 
 type Three = readonly [number, number, number];
 
@@ -85,12 +83,7 @@ export class Bank {
   private readonly rooms: Record<'inputs' | 'outputs' | 'polylines' | 'sizes' | 'rings', Room>;
 
   /** @internal */
-  constructor(
-    private readonly native: Native,
-    model: number,
-    options: BankOptions,
-    private readonly isChain: boolean,
-  ) {
+  constructor(private readonly native: Native, model: number, options: BankOptions, private readonly isChain: boolean) {
     this.pointer = native.allocating(() => Bank.create(native, model, options));
     this.scratch = native.allocate(64);
     ({ capacity: this.capacity, inputs: this.inputs, outputs: this.outputs, polylinePoints: this.polylinePoints } = this.facts);

@@ -20,10 +20,7 @@ const readers = {
 
 export type Fields = Readonly<Record<string, readonly [at: number, kind: keyof typeof readers]>>;
 
-export interface Struct<F extends Fields> {
-  size: number;
-  fields: F;
-}
+export interface Struct<F extends Fields> { size: number; fields: F }
 
 export type Values<F extends Fields> = { -readonly [Name in keyof F]: ReturnType<(typeof readers)[F[Name][1]]> };
 

@@ -77,11 +77,7 @@ export class Native {
   private readonly decoder = new TextDecoder();
   private view: DataView<ArrayBuffer>;
 
-  private constructor(
-    readonly module: WebAssembly.Module,
-    readonly simd: boolean,
-    instance: WebAssembly.Instance,
-  ) {
+  private constructor(readonly module: WebAssembly.Module, readonly simd: boolean, instance: WebAssembly.Instance) {
     const { memory, ...functions } = instance.exports;
     this.functions = functions as unknown as Functions;
     this.memory = memory as WebAssembly.Memory;

@@ -124,8 +124,7 @@ test('bytes that are no model are told so, and leave nothing behind', () => {
   ];
   for (const [bytes, words] of cases) assert.throws(() => wisp.model(bytes), wrong(Status.badData, words));
   assert.equal(wisp.memoryBytes, before);
-  assert.equal(wisp.model(flameBytes.buffer.slice(flameBytes.byteOffset, flameBytes.byteOffset + flameBytes.length)).name,
-    'made-up flame');
+  assert.equal(wisp.model(flameBytes.buffer.slice(flameBytes.byteOffset, flameBytes.byteOffset + flameBytes.length)).name, 'made-up flame');
 });
 
 test('errors say numbers as the library does anywhere', () => {

@@ -1,5 +1,4 @@
-// The modules that capture, learn and validate, one call at a time. A page runs them in a worker; Node may call them
-// directly.
+// The modules that capture, learn and validate, one call at a time. A page runs them in a worker; Node may call them directly.
 
 import { compiled, Module } from './module.js';
 import type { Captured, Learned, PictureSettings, Recipe, Region, Seen, Series, TableSettings } from './types.js';

@@ -65,12 +65,7 @@ export interface Report {
 }
 
 /** A time series of a recording. Missing samples are NaN. */
-export interface Series {
-  name: string;
-  unit: string;
-  role: 'input' | 'output' | 'motion';
-  samples: Float64Array;
-}
+export interface Series { name: string; unit: string; role: 'input' | 'output' | 'motion'; samples: Float64Array }
 
 export interface Captured {
   /** as the program writes it, for learning, saving and sending */
@@ -111,14 +106,7 @@ export interface Recipe {
 }
 
 /** A curve for plotting. */
-export interface Curve {
-  id: string;
-  label: string;
-  x_label: string;
-  y_label: string;
-  x: number[];
-  y: number[];
-}
+export interface Curve { id: string; label: string; x_label: string; y_label: string; x: number[]; y: number[] }
 
 /** A model with its verdict. */
 export interface Learned {
@@ -148,14 +136,7 @@ export interface ExportSettings {
   height?: number;
 }
 
-export interface Exported {
-  name: string;
-  bytes: Uint8Array;
-}
+export interface Exported { name: string; bytes: Uint8Array }
 
 /** Columns of a table, and its rate in rows per second where the table lacks it. */
-export interface TableSettings {
-  rate?: number;
-  inputs?: string[];
-  outputs?: string[];
-}
+export interface TableSettings { rate?: number; inputs?: string[]; outputs?: string[] }

@@ -1,11 +1,7 @@
 // Names, units and good ranges of the figures in a model's file.
 
 /** `good`: range of good values; empty where none is better than another. */
-interface Kind {
-  words: string;
-  unit: (value: number) => string;
-  good: string;
-}
+interface Kind { words: string; unit: (value: number) => string; good: string }
 
 /** Formats a number: integers in full, below 0.001 as two digits and a power of ten, others in `digits` digits. */
 export function number(value: number, digits = 3): string {

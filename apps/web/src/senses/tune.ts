@@ -1,5 +1,4 @@
-// A birthday tune from oscillators: "Good Morning to All" (1893), which everybody sings with other words. It plays only
-// on request.
+// A birthday tune from oscillators: "Good Morning to All" (1893), which everybody sings with other words. It plays only on request.
 
 /** Tempo in beats per second. */
 const PACE = 2.1;

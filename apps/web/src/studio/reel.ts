@@ -1,5 +1,4 @@
-// Small pictures kept of a film: for the strip, and for replay where there is no file. At their maximum number every
-// other one is dropped.
+// Small pictures kept of a film: for the strip, and for replay where there is no file. At their maximum number every other one is dropped.
 
 import type { Region, Seen } from '@wisp/studio';
 
@@ -9,11 +8,7 @@ export const MAX_OF_FILE = 105;
 export const KEPT_HEIGHT = 200;
 
 /** A kept picture: its time in seconds, and the part of the film it shows, pixels of the film. */
-export interface Kept {
-  seconds: number;
-  bitmap: ImageBitmap;
-  part: Region;
-}
+export interface Kept { seconds: number; bitmap: ImageBitmap; part: Region }
 
 export class Reel {
   private pictures: Kept[] = [];

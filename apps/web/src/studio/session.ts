@@ -24,11 +24,7 @@ export interface Take extends Looked {
   outlines: Outlines | null;
 }
 
-export interface Session {
-  takes: Take[];
-  recipe: Recipe;
-  learned: Learned | null;
-}
+export interface Session { takes: Take[]; recipe: Recipe; learned: Learned | null }
 
 /** Kind of object in a film. */
 export const shownIn = ({ captured }: Take): Thing => (captured.series.some(({ name }) => name === 'pos.x') ? 'fall' : 'flame');

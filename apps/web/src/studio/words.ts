@@ -115,12 +115,7 @@ function judgedFits(report: Report): { name: string; next: number; free: number 
 }
 
 /** A figure as a bar: its filled share, and the share from which it is good. */
-export interface Meter {
-  words: string;
-  share: number;
-  good: number;
-  value: string;
-}
+export interface Meter { words: string; share: number; good: number; value: string }
 
 /** Maximum number of a table's outputs with bars. */
 const MAX_OUTPUTS = 4;

@@ -6,16 +6,9 @@ import type { Outlines } from '../studio/outlines.js';
 import { evenKnots, Spline } from '../studio/spline.js';
 
 /** Consecutive outlines in flame heights above the base, x and y alternating. */
-export interface Clip {
-  rate: number;
-  outlines: Float32Array[];
-}
+export interface Clip { rate: number; outlines: Float32Array[] }
 
-export interface Pair {
-  name: string;
-  filmed: Clip;
-  played: Clip;
-}
+export interface Pair { name: string; filmed: Clip; played: Clip }
 
 /** A stretch of a recording: outlines, and wind that begins some time earlier. */
 interface Stretch {

@@ -1,5 +1,4 @@
-// The viewing test: a filmed and a played flame side by side, twenty times; which was filmed? Guessing is right half of
-// the time.
+// The viewing test: a filmed and a played flame side by side, twenty times; which was filmed? Guessing is right half of the time.
 
 import { FlameShape } from '@wisp/player/parts/candle/flame_shape';
 import { button, closeButton, element } from '../panel/element.js';

@@ -1,5 +1,4 @@
-// Breath that crosses a table from the side it blows from: delayed and weakened with distance, and blocked by candles
-// in its way.
+// Breath that crosses a table from the side it blows from: delayed and weakened with distance, and blocked by candles in its way.
 
 /** Speed of breath, room units a second. */
 const SPEED = 7;

@@ -1,5 +1,4 @@
-// Air in the picture plane: heat rises, breath and hand stir it, and it carries smoke. A fluid on a coarse grid, with
-// smoke on a finer one.
+// Air in the picture plane: heat rises, breath and hand stir it, and it carries smoke. A fluid on a coarse grid, with smoke on a finer one.
 
 import { Program, type Quad, Target } from '../stage/gl.js';
 import carryFragment from './shaders/carry.frag.js';
@@ -83,10 +82,7 @@ export class Air {
   private aspect = 1;
   private readonly words: Words;
 
-  constructor(
-    private readonly gl: WebGL2RenderingContext,
-    private readonly quad: Quad,
-  ) {
+  constructor(private readonly gl: WebGL2RenderingContext, private readonly quad: Quad) {
     this.flow = new Pair(gl);
     this.pressure = new Pair(gl);
     this.smoke = new Pair(gl);

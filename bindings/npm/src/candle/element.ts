@@ -41,12 +41,8 @@ export class WispCandle extends SceneElement {
 define('wisp-candle', WispCandle);
 
 declare global {
-  interface HTMLElementTagNameMap {
-    'wisp-candle': WispCandle;
-  }
+  interface HTMLElementTagNameMap { 'wisp-candle': WispCandle }
   namespace JSX {
-    interface IntrinsicElements {
-      'wisp-candle': SceneAttributes & { candles?: number | string };
-    }
+    interface IntrinsicElements { 'wisp-candle': SceneAttributes & { candles?: number | string } }
   }
 }

@@ -13,10 +13,7 @@ export class Glare {
   private readonly up: Target[];
   readonly program: Program;
 
-  constructor(
-    gl: WebGL2RenderingContext,
-    private readonly quad: Quad,
-  ) {
+  constructor(gl: WebGL2RenderingContext, private readonly quad: Quad) {
     this.down = Array.from({ length: LEVELS }, () => new Target(gl, { range: true }));
     this.up = Array.from({ length: LEVELS - 1 }, () => new Target(gl, { range: true }));
     this.program = new Program(gl, wholeVertex, glareFragment);

@@ -52,11 +52,7 @@ interface CandlePicture {
 }
 
 /** Programs that draw the room and its contents. */
-interface Room {
-  surface: Program;
-  light: Program;
-  warm: () => boolean;
-}
+interface Room { surface: Program; light: Program; warm: () => boolean }
 
 type Lamp = Record<'x' | 'y' | 'z' | 'light', number>;
 

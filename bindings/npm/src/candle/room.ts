@@ -25,10 +25,7 @@ export interface Stand {
 }
 
 /** Arrangement on the table. */
-export interface Setting {
-  stands: Stand[];
-  cake: { x: number; radius: number; height: number } | null;
-}
+export interface Setting { stands: Stand[]; cake: { x: number; radius: number; height: number } | null }
 
 /** Maximum number of candles on a cake, and of lights for them; more candles than lights share lights. */
 export const MAX_CANDLES = 100;

@@ -25,12 +25,8 @@ export class WispLeaves extends SceneElement {
 define('wisp-leaves', WispLeaves);
 
 declare global {
-  interface HTMLElementTagNameMap {
-    'wisp-leaves': WispLeaves;
-  }
+  interface HTMLElementTagNameMap { 'wisp-leaves': WispLeaves }
   namespace JSX {
-    interface IntrinsicElements {
-      'wisp-leaves': SceneAttributes & { leaves?: number | string };
-    }
+    interface IntrinsicElements { 'wisp-leaves': SceneAttributes & { leaves?: number | string } }
   }
 }

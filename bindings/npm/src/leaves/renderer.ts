@@ -24,10 +24,7 @@ const MESHES: readonly (readonly [most: number, rows: number, columns: number])[
 /** Magnification of drawn leaves. */
 const ENLARGED = 1.45;
 
-interface Shape extends Vertices {
-  indices: WebGLBuffer | null;
-  count: number;
-}
+interface Shape extends Vertices { indices: WebGLBuffer | null; count: number }
 
 export class LeafRenderer {
   private readonly quad: Quad;

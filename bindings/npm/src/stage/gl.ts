@@ -8,11 +8,7 @@ export class Program {
   private checked = false;
 
   /** Starts compiling. The result is queried at first use, so that compilation runs in parallel. */
-  constructor(
-    private readonly gl: WebGL2RenderingContext,
-    vertex: string,
-    fragment: string,
-  ) {
+  constructor(private readonly gl: WebGL2RenderingContext, vertex: string, fragment: string) {
     this.program = gl.createProgram() as WebGLProgram;
     this.shaders = [begun(gl, gl.VERTEX_SHADER, vertex), begun(gl, gl.FRAGMENT_SHADER, fragment)];
     for (const shader of this.shaders) gl.attachShader(this.program, shader);
@@ -97,10 +93,7 @@ export const warming = (programs: Program[]) => (): boolean => {
   return next === undefined;
 };
 
-export interface Vertices {
-  array: WebGLVertexArrayObject;
-  buffer: WebGLBuffer;
-}
+export interface Vertices { array: WebGLVertexArrayObject; buffer: WebGLBuffer }
 
 /** Uploads interleaved numbers as attributes 0, 1, … of these sizes. The vertex array stays bound. */
 export function verticesOf(gl: WebGL2RenderingContext, numbers: Float32Array, sizes: readonly number[], usage: number = gl.STATIC_DRAW): Vertices {
@@ -153,10 +146,7 @@ export class Target {
   height = 0;
 
   /** `range`: HDR, where the machine supports it; `samples`: number per pixel, with a depth buffer. */
-  constructor(
-    private readonly gl: WebGL2RenderingContext,
-    private readonly options: { range: boolean; samples?: number },
-  ) {
+  constructor(private readonly gl: WebGL2RenderingContext, private readonly options: { range: boolean; samples?: number }) {
     this.texture = gl.createTexture() as WebGLTexture;
     this.frame = gl.createFramebuffer() as WebGLFramebuffer;
   }

@@ -31,11 +31,7 @@ export function atRefresh(draw: () => void): () => void {
 }
 
 /** Placement of a picture: `scale` CSS pixels per pixel of the picture, its upper left corner at x and y. */
-export interface Fit {
-  scale: number;
-  x: number;
-  y: number;
-}
+export interface Fit { scale: number; x: number; y: number }
 
 /** Placement of a whole picture, centred. */
 export function contain(picture: { width: number; height: number }, width: number, height: number): Fit {

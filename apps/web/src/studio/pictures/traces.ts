@@ -6,12 +6,7 @@ import type { Outlines } from '../outlines.js';
 import { atRefresh, surfaceOf } from './surface.js';
 
 /** A line: name, colour, values (NaN leaves a gap), and minimum range. */
-interface Line {
-  name: string;
-  colour: string;
-  values: ArrayLike<number>;
-  least: readonly [low: number, high: number];
-}
+interface Line { name: string; colour: string; values: ArrayLike<number>; least: readonly [low: number, high: number] }
 
 /** Lines of wind (or the loudness of sound) and of the tip. */
 const linesOf = (name: string, wind: ArrayLike<number> | null, lean: ArrayLike<number>): Line[] => [

@@ -144,8 +144,7 @@ export class Viewer {
     return dimensions === null ? null : contain(dimensions, this.over.clientWidth, this.over.clientHeight);
   }
 
-  // One canvas for picture and overlay: a second would be a screen-sized layer, redrawn ten times a second during
-  // analysis.
+  // One canvas for picture and overlay: a second would be a screen-sized layer, redrawn ten times a second during analysis.
   private drawNow(): void {
     const surface = surfaceOf(this.over);
     const { fit, seen, box } = this;
