@@ -14,7 +14,7 @@ export interface WindProcessorOptions {
   calibration?: WindCalibration;
 }
 
-/** Messages: a frame of wind, the calibration that was asked for, the end of a guided calibration, or an error. */
+/** Messages: a frame of wind, the requested calibration, the end of a guided calibration, or an error. */
 export type WindMessage =
   | (Omit<WindFrame, 'rmsClean'> & {
       type: 'wind';
