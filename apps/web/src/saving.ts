@@ -31,11 +31,11 @@ const lasts = ({ settings }: App): number => (settings.wish !== '' ? 9 : 6.5);
 /** Plays the events of a film: the flame burns, is blown out, smokes, and is lit again. */
 async function happen(app: App): Promise<void> {
   const { held } = app.breath.keys;
-  const scene = app.player.playing?.scene;
+  const { playing } = app.player;
   const acts: readonly (readonly [at: number, act: () => unknown])[] = [
     [0.9, () => held.add('Space')],
     [2.1, () => held.delete('Space')],
-    [app.settings.wish !== '' ? 7 : 4.6, () => scene?.act()],
+    [app.settings.wish !== '' ? 7 : 4.6, () => playing !== null && playing === app.player.playing && playing.scene.act()],
     [lasts(app), () => undefined],
   ];
   let passed = 0;

@@ -16,6 +16,8 @@ export class StudioDoor {
   private readonly room = once(() => fetchPart(() => import('./studio/room.js')).then(({ Room }) => new Room(this)));
   /** whether the studio is open */
   inside = false;
+  /** whether a film of the scene is being made */
+  private films = false;
 
   constructor(readonly app: App) {
     const tabs = byId('scenes', HTMLElement);
@@ -27,10 +29,7 @@ export class StudioDoor {
     app.keys['3'] = () => this.open();
     for (const scene of ['1', '2']) {
       const stay = app.keys[scene];
-      app.keys[scene] = () => {
-        this.leave();
-        stay?.();
-      };
+      app.keys[scene] = () => { this.leave(); stay?.(); };
     }
     if (new URLSearchParams(location.hash.slice(1)).has('yours')) this.open();
   }
@@ -38,10 +37,7 @@ export class StudioDoor {
   /** Enters the studio, optionally with files to learn from. */
   open(dropped?: Dropped): void {
     this.room().then(
-      (room) => {
-        if (!this.inside) this.enter(room);
-        if (dropped !== undefined) room.take(dropped);
-      },
+      (room) => { if (!this.inside) this.enter(room); if (dropped !== undefined) room.take(dropped); },
       () => this.app.notices.say('The studio could not be fetched. Is there a network? Press Yours to try again.'),
     );
   }
@@ -89,15 +85,18 @@ export class StudioDoor {
 
   /** Saves a film or GIF of a flame in the page's own scene. Returns a message about the result. */
   async film(file: string, model: Uint8Array, kind: Moving): Promise<string> {
+    if (this.films) return 'One moment: another is being made';
+    this.films = true;
     const { app } = this;
-    await app.player.playFile(file, model);
-    if (app.player.playing?.model.inputs.length === 0) await app.player.borrowWind();
-    this.markTab();
-    app.stage.loop.start();
-    await after(LIT);
     try {
+      await app.player.playFile(file, model);
+      if (app.player.playing?.model.inputs.length === 0) await app.player.borrowWind();
+      this.markTab();
+      app.stage.loop.start();
+      await after(LIT);
       return await (kind === 'gif' ? saveGif : saveLoop)(app);
     } finally {
+      this.films = false;
       if (this.inside) app.stage.loop.stop();
     }
   }

@@ -192,7 +192,7 @@ describe('sharing', { skip }, () => {
           look();
         }),
     );
-    const loop = await saved(page, '[data-file=loop]');
+    const [loop] = await Promise.all([saved(page, '[data-file=loop]'), wasOut.then(() => page.evaluate(() => (location.hash = '#scene=candle&seed=4&detail=0.2')))]);
     assert.match(loop.suggestedFilename(), /^wisp\.(webm|mp4)$/);
     const film = readFileSync(await loop.path());
     assert.ok(film.length > 1_000, `${film.length} bytes`);

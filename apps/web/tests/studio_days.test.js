@@ -5,9 +5,9 @@ import assert from 'node:assert/strict';
 import { readFileSync, truncateSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { describe, it } from 'node:test';
-import { chooses, drop, enterStudio, filmsWith, loud, onPage, panel, saved, says, skip as noChromium, step, temporaryFolder, toLearn, until } from './browser.js';
+import { chooses, drop, dropAll, enterStudio, filmsWith, loud, onPage, painted, panel, saved, says, seen, skip as noChromium, step, temporaryFolder, toLearn, until } from './browser.js';
 import { fallsFilm } from '../../../bindings/studio/tests/falls_film.mjs';
-import { asDevices, assertSame, brokenOff, candleFilm, capturedByProgram, hugeFile, hugePicture, noConverter, shortFilm, soundAlone, unevenFilm, webFilm } from './films.js';
+import { asDevices, assertSame, brokenOff, candleFilm, capturedByProgram, hugeFile, hugePicture, noConverter, shortFilm, soundAlone, unevenFilm, wallFilm, webFilm } from './films.js';
 
 const skip = noChromium || noConverter;
 const folder = temporaryFolder();
@@ -53,6 +53,31 @@ describe('a film out of the ordinary', { skip }, () => {
     await says(page, '#notices', 'films.zip is no film.*unpack an archive first');
     await drop(page, 'diary.txt', Buffer.from('Dear diary,\ntoday I lit a candle.\n'));
     await says(page, '#notices', 'diary.txt has no column of numbers');
+    await dropAll(page, { 'empty.csv': Buffer.from(''), 'other.csv': Buffer.from('') });
+    await says(page, '#notices', 'Of the tables, empty.csv alone is read');
+  });
+
+  it('that nobody can read, among others, is named; the others, and one that comes meanwhile, are looked at', async () => {
+    const short = readFileSync(shortFilm(film(), folder));
+    await dropAll(page, { 'first.mp4': short, 'diary.mp4': Buffer.from('Today I lit a candle.'), 'last.mp4': short, 'notes.csv': Buffer.from('u,y\n1,2\n') });
+    await says(page, '#notices', 'the films alone are looked at');
+    await drop(page, 'more.mp4', short);
+    await drop(page, 'late.csv', Buffer.from('u,y\n1,2\n'));
+    await says(page, '#notices', 'give pictures or a table when that is done');
+    await says(page, '#notices', 'diary.mp4 is not a film');
+    await says(page, panel, 'Learn from 3 films');
+    // What is shown beside its findings is its own, also after a film in which nothing was found.
+    await drop(page, 'wall.mp4', readFileSync(wallFilm(folder)));
+    await says(page, `${panel} .verdict.bad`, 'flame|outline|nothing');
+    await drop(page, 'late.csv', Buffer.from('u,y\n1,2\n'));
+    await says(page, panel, 'What goes in');
+    await page.getByRole('button', { name: 'Back' }).click();
+    await seen('the last film and its outline', async () => (await painted(page, '.viewer .over', 'blue'))[0] > 20);
+    await page.click('[data-act=leave-out]');
+    await seen('the film before it', async () => (await painted(page, '.viewer .over', 'bright'))[0] > 20);
+    await page.click('[data-act=leave-out]');
+    await page.click('[data-act=leave-out]');
+    await chooses(page);
   });
 
   it('in WebM with VP9 is followed as any other, and a press without a drag does not begin anew', async () => {
@@ -137,6 +162,26 @@ describe('a film out of the ordinary', { skip }, () => {
     await until(page, 'the candle is seen', () => document.getElementById('studio').hidden && window.wisp.burning?.lit === 1);
     await page.click('[data-scene=yours]');
   });
+
+  it('that is captured beside another has its own pictures alone', async () => {
+    await page.evaluate(() => {
+      const post = Worker.prototype.postMessage;
+      Worker.prototype.postMessage = function (message, ...rest) {
+        // The answers to the other have a number that nobody waits for.
+        if (message.task?.do === 'film') post.call(this, { ...message, of: -1 });
+        post.call(this, message, ...rest);
+      };
+    });
+    await drop(page, 'twice.mp4', readFileSync(shortFilm(film(), folder)));
+    await says(page, panel, 'in \\d+ of 35 pictures');
+    await anew();
+  });
+
+  it('whose sound is damaged is captured by its picture, and says so', async () => {
+    await page.workers()[0].evaluate(() => (AudioDecoder.prototype.decode = () => { throw new Error('no sound'); }));
+    await drop(page, 'deaf.mp4', readFileSync(shortFilm(film(), folder)));
+    await says(page, panel, 'in \\d+ of 35 pictures.*Deaf.mp4: its sound is damaged \\(no sound\\)');
+  });
 });
 
 describe('a worker that stops', { skip }, () => {
@@ -147,41 +192,24 @@ describe('a worker that stops', { skip }, () => {
     await looked(page);
   });
 
-  /** Runs a function in the worker while it analyses a film. */
-  const meanwhile = async (happens) => {
-    await page.click('[data-act=more]');
-    await drop(page, 'second.mp4', readFileSync(film()));
-    await says(page, panel, 'Picture\\d');
-    await page.workers()[0].evaluate(happens);
-  };
-  const kept = async () => {
-    await page.click('[data-act=choose]');
-    await says(page, panel, 'One film is kept');
-    await page.getByRole('button', { name: 'Back' }).click();
-    await toLearn(page);
-  };
-
-  it('is said to have stopped, and the first film is still there', async () => {
-    await meanwhile(() => setTimeout(() => { throw new Error('struck'); }));
-    await says(page, `${panel} .verdict.bad`, 'worker that learns stopped.*what was gathered is kept');
-    await kept();
-  });
-
-  it('for want of memory says so, and what to give it', async () => {
-    await meanwhile(() => {
-      Uint8Array.prototype.set = () => { throw new RangeError('Array buffer allocation failed'); };
+  // Each happens in the worker while it analyses a film.
+  for (const [what, happens, words] of [
+    ['is said to have stopped, and the first film is still there', () => setTimeout(() => { throw new Error('struck'); }), 'worker that learns stopped.*what was gathered is kept'],
+    ['for want of memory says so, and what to give it', () => (Uint8Array.prototype.set = () => { throw new RangeError('Array buffer allocation failed'); }), 'not enough memory.*shorter film'],
+    ['by a fault of its own says that', () => (Uint8Array.prototype.set = () => { throw new WebAssembly.RuntimeError('unreachable'); }), 'a fault of its own'],
+  ]) {
+    it(what, async () => {
+      await page.click('[data-act=more]');
+      await drop(page, 'second.mp4', readFileSync(film()));
+      await says(page, panel, 'Picture\\d');
+      await page.workers()[0].evaluate(happens);
+      await says(page, `${panel} .verdict.bad`, words);
+      await page.click('[data-act=choose]');
+      await says(page, panel, 'One film is kept');
+      await page.getByRole('button', { name: 'Back' }).click();
+      await toLearn(page);
     });
-    await says(page, `${panel} .verdict.bad`, 'not enough memory.*shorter film');
-    await kept();
-  });
-
-  it('by a fault of its own says that', async () => {
-    await meanwhile(() => {
-      Uint8Array.prototype.set = () => { throw new WebAssembly.RuntimeError('unreachable'); };
-    });
-    await says(page, `${panel} .verdict.bad`, 'a fault of its own');
-    await kept();
-  });
+  }
 
   it('is followed by another, which learns from what was gathered', async () => {
     await page.click('[data-act=learn]');
@@ -196,8 +224,9 @@ describe('devices that are taken away', { skip }, () => {
   function stubDevices() {
     window.deaf = false;
     navigator.mediaDevices.getUserMedia = async (wanted) => {
+      if (window.late) await new Promise((resolve) => (window.allow = resolve));
       if (window.deaf && wanted.audio) throw new DOMException('no', 'NotAllowedError');
-      const canvas = document.createElement('canvas');
+      const canvas = (window.canvas = document.createElement('canvas'));
       [canvas.width, canvas.height] = [160, 240];
       const context = canvas.getContext('2d');
       window.drawing = setInterval(() => {
@@ -209,6 +238,7 @@ describe('devices that are taken away', { skip }, () => {
         context.fill();
       }, 30);
       const stream = canvas.captureStream(30);
+      stream.getVideoTracks()[0].getSettings = () => ({ frameRate: 0 }); // as some virtual cameras state
       if (wanted.audio) {
         const sound = new AudioContext().createMediaStreamDestination();
         stream.addTrack(sound.stream.getAudioTracks()[0]);
@@ -234,6 +264,27 @@ describe('devices that are taken away', { skip }, () => {
     await page.evaluate(() => (window.deaf = false));
   });
 
+  it('the camera until it is allowed: a film that is chosen meanwhile is looked at to its end', async () => {
+    await page.evaluate(() => (window.late = true));
+    await page.click('[data-gather=camera]');
+    await until(page, 'the camera is asked for', () => window.allow !== undefined);
+    await drop(page, 'short.mp4', readFileSync(shortFilm(film(), folder)));
+    await says(page, panel, 'Picture\\d');
+    await page.evaluate(() => window.allow((window.late = false)));
+    await says(page, panel, 'in \\d+ of 35 pictures');
+    await page.click('[data-act=leave-out]');
+  });
+
+  it('the camera by Back, while what was filmed is looked over: it is abandoned, and disturbs no film that is chosen then', async () => {
+    await filming();
+    await page.waitForTimeout(2500);
+    await page.evaluate(() => ['.record', '.filming > .actions button'].forEach((one) => document.querySelector(one).click()));
+    await drop(page, 'short.mp4', readFileSync(shortFilm(film(), folder)));
+    await says(page, panel, 'in \\d+ of 35 pictures');
+    await says(page, '[data-act=learn]', '^Learn it$');
+    await page.click('[data-act=leave-out]');
+  });
+
   it('the microphone while it films: it is said, and filming goes on', async () => {
     await filming();
     await page.evaluate(() => window.stream.getAudioTracks()[0].dispatchEvent(new Event('ended')));
@@ -247,6 +298,16 @@ describe('devices that are taken away', { skip }, () => {
     await says(page, '#notices', 'camera is gone; what was filmed till then is kept');
     await looked(page);
     assert.match(await page.textContent(panel), /The flame is|Nothing was learned/);
+  });
+
+  it('the phone is turned while it films: what was filmed till then is looked at', async () => {
+    await page.$eval('[data-act=more], [data-act=choose]', (button) => button.click());
+    await filming();
+    await page.waitForTimeout(2500);
+    await page.evaluate(() => ([window.canvas.width, window.canvas.height] = [240, 160]));
+    await page.waitForTimeout(500);
+    await page.click('.record');
+    await says(page, panel, '240 x 160 pixels.*the rest is used|too short|at least');
   });
 
   it('the worker while it films: it is said at once', async () => {
@@ -272,6 +333,7 @@ describe('falls before a camera', { skip }, () => {
     await until(page, 'the camera shows', () => document.querySelector('.viewer video').videoWidth > 0);
     await page.click('.record');
     await says(page, '.caption', '[4-9] falls');
+    assert.ok(await page.isDisabled('#wall-height'), 'the capture has its height already');
     await page.click('.record');
     await looked(page);
     assert.match(await page.textContent(panel), /The falls are|Falls\d/);

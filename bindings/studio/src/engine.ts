@@ -95,10 +95,7 @@ export class Engine extends Module {
     return { frame, width, height, state, outline, box: regionOf(box), moving: regionOf(moving), ...undecided, ...found };
   }
 
-  finish(): Captured {
-    this.call('studio_finish');
-    return this.recording();
-  }
+  finish(): Captured { this.call('studio_finish'); return this.recording(); }
 
   /** Reads a recording or table; its report, with `advise`, lists defects that will harm a model, with remedies. */
   table(name: string, bytes: Uint8Array, settings: TableSettings = {}, how: 'table' | 'advise' = 'table'): Captured {

@@ -2,7 +2,7 @@
 
 import { AudioSampleSink, BlobSource, EncodedPacketSink, Input, MATROSKA, MP4, QTFF, UnsupportedInputFormatError, VideoSampleSink, WEBM, type InputVideoTrack } from 'mediabunny';
 import type { CaptureSettings, Engine, RawPicture } from './engine.js';
-import { StudioError } from './module.js';
+import { sentenceOf, StudioError } from './module.js';
 import { rawOfFrame } from './pictures.js';
 
 /** Formats written by cameras, phones and browsers. */
@@ -32,12 +32,14 @@ function gridRate(times: readonly number[]): number {
   return rate / mean < 1.5 ? rate : mean;
 }
 
+const wordsOf = (error: unknown): string => (error instanceof Error ? error.message : String(error));
+
 /** Reason why a file cannot be shown, and what to do. */
 function unreadable(name: string, error: unknown): StudioError {
   if (error instanceof UnsupportedInputFormatError) {
     return new StudioError(`${name} is not a film that can be read here. MP4, MOV, WebM and MKV can: convert it to MP4, or give another`);
   }
-  return new StudioError(`${name} is damaged: ${error instanceof Error ? error.message : String(error)}; give another copy of it`);
+  return new StudioError(`${name} is damaged: ${wordsOf(error)}; give another copy of it`);
 }
 
 /** Error for files without pictures: sound only, or an MP4 truncated before its index. */
@@ -70,7 +72,8 @@ async function glimpse(engine: Engine, track: InputVideoTrack, first: number, la
     const packet = await packets.getKeyPacket(first + ((last - first) * k) / GLIMPSES, { metadataOnly: true });
     if (packet === null || packet.timestamp === before) continue;
     before = packet.timestamp;
-    const sample = await frames.getSample(packet.timestamp);
+    // Damage of the film is reported where its frames are decoded in order.
+    const sample = await frames.getSample(packet.timestamp).catch(() => null);
     if (sample === null) continue;
     const frame = sample.toVideoFrame();
     engine.frame(await rawOfFrame(frame, sample.rotation, stated), 0, true);
@@ -84,27 +87,27 @@ async function hear(engine: Engine, input: Input, first: number): Promise<string
   const track = await input.getPrimaryAudioTrack();
   if (track === null) return '';
   if (!(await track.canDecode())) return `its sound (${track.codec ?? 'of an unknown kind'}) cannot be decoded by this browser, so its wind is not heard`;
-  for await (const sample of new AudioSampleSink(track).samples()) {
-    const samples = new Float32Array(sample.numberOfFrames * sample.numberOfChannels);
-    sample.copyTo(samples, { planeIndex: 0, format: 'f32' });
-    engine.sound(samples, sample.numberOfChannels, sample.sampleRate, sample.timestamp - first);
-    sample.close();
+  try {
+    for await (const sample of new AudioSampleSink(track).samples()) {
+      const samples = new Float32Array(sample.numberOfFrames * sample.numberOfChannels);
+      sample.copyTo(samples, { planeIndex: 0, format: 'f32' });
+      engine.sound(samples, sample.numberOfChannels, sample.sampleRate, sample.timestamp - first);
+      sample.close();
+    }
+  } catch (error) {
+    if (sentenceOf(error) instanceof StudioError) throw error;
+    return `its sound is damaged (${wordsOf(error)}), so its wind is heard only up to there`;
   }
   return '';
 }
 
 /** Passes a whole film to the engine. `looked`: called after each frame, with the finished share. Returns warnings. */
 export async function showFilm(
-  engine: Engine,
-  file: Blob,
-  settings: Omit<CaptureSettings, 'rate'>,
-  looked: (picture: RawPicture, share: number) => Promise<void>,
+  engine: Engine, file: Blob, settings: Omit<CaptureSettings, 'rate'>, looked: (picture: RawPicture, share: number) => Promise<void>,
 ): Promise<string[]> {
   const input = new Input({ source: new BlobSource(file), formats: FORMATS });
   try {
-    const track = await input.getPrimaryVideoTrack().catch((error: unknown) => {
-      throw unreadable(settings.name, error);
-    });
+    const track = await input.getPrimaryVideoTrack().catch((error: unknown) => { throw unreadable(settings.name, error); });
     if (track === null) throw await withoutPicture(settings.name, input);
     if (!(await track.canDecode())) throw undecodable(settings.name, track.codec);
     const times = await timesOf(track);
@@ -116,18 +119,23 @@ export async function showFilm(
     await glimpse(engine, track, first, last, stated);
     let begin = null;
     let done = 0;
-    for await (const sample of new VideoSampleSink(track).samples()) {
-      begin ??= sample.timestamp;
-      const frame = sample.toVideoFrame();
-      const picture = await rawOfFrame(frame, sample.rotation, stated);
-      frame.close();
-      sample.close();
-      engine.frame(picture, sample.timestamp);
-      done += 1;
-      await looked(picture, done / times.length);
+    try {
+      for await (const sample of new VideoSampleSink(track).samples()) {
+        begin ??= sample.timestamp;
+        const frame = sample.toVideoFrame();
+        const picture = await rawOfFrame(frame, sample.rotation, stated);
+        frame.close();
+        sample.close();
+        engine.frame(picture, sample.timestamp);
+        done += 1;
+        await looked(picture, done / times.length);
+      }
+    } catch (error) {
+      if (sentenceOf(error) instanceof StudioError) throw error;
+      if (done === 0) throw unreadable(settings.name, error);
     }
     const unheard = await hear(engine, input, begin ?? first);
-    const cut = done < times.length - 1 ? `cut off: found ${done} frames of ${times.length} stated; what is there is used` : '';
+    const cut = done < times.length - 1 ? `cut off or damaged: found ${done} frames of ${times.length} stated; what is there is used` : '';
     return [unheard, cut].filter((words) => words !== '').map((words) => `${settings.name}: ${words}`);
   } finally {
     input.dispose();

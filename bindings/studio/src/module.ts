@@ -15,19 +15,16 @@ const NO_MEMORY = 'there is not enough memory for this: give a shorter film, or 
 const FAULT = 'Wisp stopped at a fault of its own; what was gathered before is kept. A report with this file would help to mend it';
 
 /** Compiles a module from its bytes, unless it is compiled already. */
-export async function compiled(module: WebAssembly.Module | BufferSource): Promise<WebAssembly.Module> {
-  return module instanceof WebAssembly.Module ? module : WebAssembly.compile(module);
-}
+export const compiled = async (module: WebAssembly.Module | BufferSource): Promise<WebAssembly.Module> =>
+  module instanceof WebAssembly.Module ? module : WebAssembly.compile(module);
 
 /**
  * Converts an engine's error to a StudioError: traps and stack overflows are faults of Wisp, other range errors mean
  * that the browser refuses memory. Returns other errors unchanged.
  */
 export function sentenceOf(error: unknown): unknown {
-  if (error instanceof WebAssembly.RuntimeError || (error instanceof RangeError && /stack/i.test(error.message))) {
-    return new StudioError(FAULT, { cause: error });
-  }
-  return error instanceof RangeError ? new StudioError(NO_MEMORY, { cause: error }) : error;
+  const fault = error instanceof WebAssembly.RuntimeError || (error instanceof RangeError && /stack/i.test(error.message));
+  return fault || error instanceof RangeError ? new StudioError(fault ? FAULT : NO_MEMORY, { cause: error }) : error;
 }
 
 /** Runs work that needs memory; converts its errors by sentenceOf(). After an error the module is unusable. */
@@ -53,9 +50,7 @@ export class Module {
   }
 
   /** Current size of the module's memory in bytes; it grows and never shrinks. */
-  get memoryBytes(): number {
-    return this.memory.buffer.byteLength;
-  }
+  get memoryBytes(): number { return this.memory.buffer.byteLength; }
 
   /** Calls a function of the module; on failure throws the answer's text. */
   protected call(name: string, ...values: number[]): void {
@@ -77,9 +72,7 @@ export class Module {
     return told(() => new Float64Array(this.memory.buffer, this.functions.studio_numbers!(), this.functions.studio_numbers_size!()).slice());
   }
 
-  protected bytes(at: number, size: number): Uint8Array {
-    return new Uint8Array(this.memory.buffer, at, size);
-  }
+  protected bytes(at: number, size: number): Uint8Array { return new Uint8Array(this.memory.buffer, at, size); }
 
   protected take(size: number): number {
     const at = told(() => this.functions.malloc!(Math.max(1, size)));
@@ -114,16 +107,12 @@ export class Module {
 }
 
 /** Ends a call that needs more memory than there is. The module's data are lost. */
-function outOfMemory(): never {
-  throw new StudioError(NO_MEMORY, { cause: 'memory' });
-}
+function outOfMemory(): never { throw new StudioError(NO_MEMORY, { cause: 'memory' }); }
 
 /** Stub for a system call: there are no files, no clock and no environment. */
 function absent(name: string): () => number {
   if (name === 'emscripten_notify_memory_growth') return () => 0;
   const BAD_DESCRIPTOR = 8;
   if (/^(fd_|environ_|clock_)/.test(name)) return () => BAD_DESCRIPTOR;
-  return () => {
-    throw new StudioError(`the module wants ${name} of an operating system, and a page has none`);
-  };
+  return () => { throw new StudioError(`the module wants ${name} of an operating system, and a page has none`); };
 }

@@ -24,29 +24,18 @@ export function paced(Native: typeof VideoDecoder): typeof VideoDecoder {
     }
 
     /** Number of packets not yet decoded, including those waiting here. */
-    override get decodeQueueSize(): number {
-      return this.waiting.length + super.decodeQueueSize;
-    }
+    override get decodeQueueSize(): number { return this.waiting.length + super.decodeQueueSize; }
 
-    override decode(packet: EncodedVideoChunk): void {
-      this.waiting.push(packet);
-      this.feed();
-    }
+    override decode(packet: EncodedVideoChunk): void { this.waiting.push(packet); this.feed(); }
 
     override async flush(): Promise<void> {
       if (this.waiting.length > 0) await new Promise<void>((resolve) => this.untilFed.push(resolve));
       return super.flush();
     }
 
-    override reset(): void {
-      this.forget();
-      super.reset();
-    }
+    override reset(): void { this.forget(); super.reset(); }
 
-    override close(): void {
-      this.forget();
-      super.close();
-    }
+    override close(): void { this.forget(); super.close(); }
 
     private follow(frame: VideoFrame): void {
       const close = frame.close.bind(frame);
@@ -60,19 +49,13 @@ export function paced(Native: typeof VideoDecoder): typeof VideoDecoder {
     }
 
     private feed(): void {
-      while (this.state === 'configured' && this.waiting.length > 0 && this.frames < MAX_FRAMES && super.decodeQueueSize === 0) {
-        super.decode(this.waiting.shift()!);
-      }
+      const free = (): boolean => this.state === 'configured' && this.frames < MAX_FRAMES && super.decodeQueueSize === 0;
+      while (this.waiting.length > 0 && free()) super.decode(this.waiting.shift()!);
       if (this.waiting.length === 0) this.goOn();
     }
 
-    private forget(): void {
-      this.waiting.length = 0;
-      this.goOn();
-    }
+    private forget(): void { this.waiting.length = 0; this.goOn(); }
 
-    private goOn(): void {
-      for (const resolve of this.untilFed.splice(0)) resolve();
-    }
+    private goOn(): void { for (const resolve of this.untilFed.splice(0)) resolve(); }
   };
 }

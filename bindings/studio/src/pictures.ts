@@ -54,9 +54,7 @@ function turned(picture: RawPicture, quarters: number): RawPicture {
       quarters === 1 ? [offset + (tall - 1) * stride, -stride, step]
       : quarters === 2 ? [offset + (tall - 1) * stride + (wide - 1) * step, -step, -stride]
       : [offset + (wide - 1) * step, stride, -step];
-    for (let y = 0; y < outHeight; ++y) {
-      for (let x = 0, at = first + y * down; x < outWidth; ++x, at += along) out[next++] = data[at]!;
-    }
+    for (let y = 0; y < outHeight; ++y) for (let x = 0, at = first + y * down; x < outWidth; ++x, at += along) out[next++] = data[at]!;
     return plane;
   });
   return { ...picture, width: sideways ? height : width, height: sideways ? width : height, data: out, planes, shiftX: sideways ? shiftY : shiftX, shiftY: sideways ? shiftX : shiftY };

@@ -56,9 +56,7 @@ function smallPlane({ data, planes, width: from, height: high }: RawPicture, k: 
       const x0 = columns[i]!;
       const x1 = Math.max(x0 + 1, columns[i + 1]!);
       let sum = 0;
-      for (let y = y0; y < y1; ++y) {
-        for (let x = x0, place = offset + y * stride + x0 * step; x < x1; ++x, place += step) sum += data[place]!;
-      }
+      for (let y = y0; y < y1; ++y) for (let x = x0, place = offset + y * stride + x0 * step; x < x1; ++x, place += step) sum += data[place]!;
       out[at] = sum / ((x1 - x0) * (y1 - y0));
     }
   }

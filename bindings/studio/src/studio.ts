@@ -71,9 +71,7 @@ export class Studio {
     const of = ++this.count;
     const { pending } = this;
     let waiting = 0;
-    const ended = new Promise<Outcome>((resolve, reject) => {
-      this.pending.set(of, { watch, resolve, reject, looked: () => (waiting -= 1) });
-    });
+    const ended = new Promise<Outcome>((resolve, reject) => void this.pending.set(of, { watch, resolve, reject, looked: () => (waiting -= 1) }));
     // finish() reports failures.
     ended.catch(() => undefined);
     this.send({ of, task: { do: 'live', settings: { ...settings, name, rate } } });
@@ -86,12 +84,8 @@ export class Studio {
       sound: (sound, heard, seconds) => {
         if (this.pending.has(of)) this.send({ of, sound, rate: heard, seconds }, [sound.buffer]);
       },
-      get waiting() {
-        return waiting;
-      },
-      get alive() {
-        return pending.has(of);
-      },
+      get waiting() { return waiting; },
+      get alive() { return pending.has(of); },
       finish: () => {
         if (this.pending.has(of)) this.send({ of, task: { do: 'finish' } });
         return ended as Promise<Captured>;
@@ -123,9 +117,7 @@ export class Studio {
   }
 
   /** Ends the worker and discards all data. */
-  close(): void {
-    this.dismiss(stopped());
-  }
+  close(): void { this.dismiss(stopped()); }
 
   private employ(): Worker {
     const worker = new Worker(new URL('./worker.js', import.meta.url), { type: 'module' });

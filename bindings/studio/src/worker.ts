@@ -54,11 +54,8 @@ let shown: () => void = () => undefined;
 /** Waits for shown(), or SHOWN_WITHIN_MS. With few processors, the page would otherwise draw only at the film's end. */
 const drawn = (): Promise<void> =>
   new Promise((resolve) => {
-    const late = setTimeout(resolve, SHOWN_WITHIN_MS);
-    shown = () => {
-      clearTimeout(late);
-      resolve();
-    };
+    shown = resolve;
+    setTimeout(resolve, SHOWN_WITHIN_MS);
   });
 
 /** Returns a function that reports findings at intervals, with a small picture of the frame if there is one. */
@@ -80,20 +77,25 @@ function showing(of: number, wisp: Engine): (picture: RawPicture | null, share: 
   };
 }
 
+/** Adds warnings to a capture's. */
+function warned(captured: Captured, warnings: string[]): Captured {
+  captured.report.warnings = [...(captured.report.warnings ?? []), ...warnings];
+  return captured;
+}
+
 class Live {
   private first: number | null = null;
   private early: { sound: Float32Array; rate: number; seconds: number }[] = [];
   private heardTo: number | null = null;
-  /** error that ended the capture; null while it runs */
+  /** errors that ended the capture, and its sound alone; null while they run */
   private failure: unknown = null;
+  private deaf: unknown = null;
   /** whether it was abandoned: the engine then captures something else, and waiting input is discarded */
   abandoned = false;
   private work: Promise<void> = Promise.resolve();
   private readonly show: ReturnType<typeof showing>;
 
-  constructor(private readonly of: number, private readonly engine: Engine) {
-    this.show = showing(of, engine);
-  }
+  constructor(readonly of: number, private readonly engine: Engine) { this.show = showing(of, engine); }
 
   frame(frame: VideoFrame | ImageBitmap, seconds: number): void {
     this.work = this.work.then(async () => {
@@ -123,8 +125,10 @@ class Live {
 
   async finish(): Promise<Captured> {
     await this.work;
-    if (this.failure !== null) throw this.failure;
-    return this.engine.finish();
+    const failure = sentenceOf(this.failure ?? this.deaf);
+    // What was captured is used, as the film until a phone was turned, unless the module is unusable.
+    if (failure !== null && (this.first === null || (failure instanceof StudioError && failure.cause !== undefined))) throw failure;
+    return warned(this.engine.finish(), failure instanceof Error ? [`${failure.message}; the rest is used`] : []);
   }
 
   private start(seconds: number): void {
@@ -141,29 +145,41 @@ class Live {
       // Time stamps jitter, samples do not: only lost sound moves the clock.
       this.heardTo = (this.heardTo === null || lost > LOST_SECONDS ? seconds : this.heardTo) + sound.length / rate;
     } catch (error) {
-      this.failure ??= error;
+      this.deaf ??= error;
     }
   }
 }
 
 let live: Live | null = null;
+let capturing: Promise<unknown> = Promise.resolve();
+
+/** Captures share the engine: each begins when the one before has ended, except that a live one is then abandoned. */
+function inTurn<T>(capture: () => T | Promise<T>): Promise<T> {
+  const ended = capturing.then(capture);
+  capturing = ended.catch(() => undefined);
+  return ended;
+}
+
+function abandonLive(): void {
+  if (live !== null) live.abandoned = true;
+  live = null;
+}
 
 async function film(of: number, wisp: Engine, file: File, settings: object): Promise<Captured> {
+  abandonLive();
   const warnings = await showFilm(wisp, file, { ...settings, name: file.name }, showing(of, wisp));
-  const captured = wisp.finish();
-  if (warnings.length > 0) captured.report.warnings = [...(captured.report.warnings ?? []), ...warnings];
-  return captured;
+  return warned(wisp.finish(), warnings);
 }
 
 async function pictures(of: number, wisp: Engine, files: File[], rate: number, settings: object): Promise<Captured> {
+  abandonLive();
   const show = showing(of, wisp);
   const collator = new Intl.Collator('en', { numeric: true });
   const sorted = files.toSorted((a, b) => collator.compare(a.name, b.name));
   wisp.begin({ ...settings, name: 'pictures', rate, pictures: true });
   for (const [k, file] of sorted.entries()) {
-    const bitmap = await createImageBitmap(file, { colorSpaceConversion: 'none' }).catch(() => {
-      throw new StudioError(`${file.name} is not a picture that can be read here`);
-    });
+    const bitmap = await createImageBitmap(file, { colorSpaceConversion: 'none' }).catch(() => null);
+    if (bitmap === null) throw new StudioError(`${file.name} is not a picture that can be read here`);
     const picture = rawOfBitmap(bitmap);
     bitmap.close();
     wisp.frame(picture, k / rate);
@@ -194,32 +210,25 @@ async function byEither<T>(of: number, work: (wisp: Engine) => T): Promise<T> {
 async function perform(of: number, task: Task): Promise<Outcome | null> {
   if (task.do === 'export') return (await exporter()).files(task.model, task.settings);
   const wisp = watched(of, await engine());
-  if (task.do === 'film' || task.do === 'pictures' || task.do === 'live') {
-    if (live !== null) live.abandoned = true;
-    live = null;
-  }
   switch (task.do) {
-    case 'film':
-      return film(of, wisp, task.file, task.settings);
-    case 'pictures':
-      return pictures(of, wisp, task.files, task.rate, task.settings);
+    case 'film': return inTurn(() => film(of, wisp, task.file, task.settings));
+    case 'pictures': return inTurn(() => pictures(of, wisp, task.files, task.rate, task.settings));
     case 'table':
-    case 'advise':
-      return wisp.table(task.name, task.bytes, task.settings, task.do);
-    case 'learn':
-      return byEither(of, (learner) => learner.learn(task.recordings, task.recipe));
-    case 'validate':
-      return byEither(of, (learner) => learner.validate(task.model, task.recordings));
-    case 'live':
+    case 'advise': return wisp.table(task.name, task.bytes, task.settings, task.do);
+    case 'learn': return byEither(of, (learner) => learner.learn(task.recordings, task.recipe));
+    case 'validate': return byEither(of, (learner) => learner.validate(task.model, task.recordings));
+    case 'live': return inTurn(() => {
+      abandonLive();
       wisp.begin(task.settings);
       live = new Live(of, wisp);
       return null;
-    case 'finish': {
+    });
+    case 'finish': return inTurn(() => {
       const ending = live;
+      if (ending?.of !== of) throw new StudioError('nothing is being filmed');
       live = null;
-      if (ending === null) throw new StudioError('nothing is being filmed');
       return ending.finish();
-    }
+    });
   }
 }
 
@@ -238,11 +247,11 @@ self.addEventListener('message', ({ data }: MessageEvent<ToWorker>) => {
   if ('task' in data) void answer(data.of, data.task);
   else if ('shown' in data) shown();
   else if ('frame' in data) {
-    if (live !== null) live.frame(data.frame, data.seconds);
+    if (live?.of === data.of) live.frame(data.frame, data.seconds);
     else {
       // The capture has not begun, as the module is still loading, or has ended: the frame is dropped.
       data.frame.close();
       tell({ of: data.of, looked: 1 });
     }
-  } else live?.sound(data.sound, data.rate, data.seconds);
+  } else if (live?.of === data.of) live.sound(data.sound, data.rate, data.seconds);
 });

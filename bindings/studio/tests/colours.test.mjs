@@ -33,9 +33,7 @@ describe('the colours of a film', () => {
       assert.equal(isBt709(await statedIn(`b.${kind}`, ...tags('smpte170m')), guessed), false);
     });
 
-    it(`are BT.601 where an ${kind} file states nothing, as in the program, though a browser guesses BT.709`, async () => {
-      assert.equal(isBt709(await statedIn(`c.${kind}`), guessed), false);
-    });
+    it(`are BT.601 where an ${kind} file states nothing, as in the program, though a browser guesses BT.709`, async () => assert.equal(isBt709(await statedIn(`c.${kind}`), guessed), false));
   }
 
   it('are the frame\'s own where there is no file', () => {

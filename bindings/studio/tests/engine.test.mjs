@@ -26,11 +26,7 @@ function capture(engine, clip, settings) {
   const [width, height, rate] = sizeOf(clip);
   const luma = width * height;
   const size = (3 * luma) / 2;
-  const planes = [
-    { offset: 0, stride: width, step: 1 },
-    { offset: luma, stride: width / 2, step: 1 },
-    { offset: (5 * luma) / 4, stride: width / 2, step: 1 },
-  ];
+  const planes = [{ offset: 0, stride: width, step: 1 }, { offset: luma, stride: width / 2, step: 1 }, { offset: (5 * luma) / 4, stride: width / 2, step: 1 }];
   const picture = (k) => ({ layout: 'yuv', width, height, data: film.subarray(k * size, (k + 1) * size), planes, shiftX: 1, shiftY: 1, ...settings.colours });
   const frames = film.length / size;
   engine.begin({ name: clip, rate, ...settings });

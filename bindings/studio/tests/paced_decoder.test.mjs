@@ -16,22 +16,16 @@ class Eager extends EventTarget {
   }
 
   // It never has packets that wait.
-  get decodeQueueSize() {
-    return 0;
-  }
+  get decodeQueueSize() { return 0; }
 
   decode(packet) {
     this.held.push(packet);
     if (this.held.length > 3) this.emit();
   }
 
-  async flush() {
-    while (this.held.length > 0) this.emit();
-  }
+  async flush() { while (this.held.length > 0) this.emit(); }
 
-  close() {
-    this.state = 'closed';
-  }
+  close() { this.state = 'closed'; }
 
   emit() {
     const frame = { packet: this.held.shift(), close: () => (Eager.open -= 1) };

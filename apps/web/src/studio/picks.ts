@@ -1,9 +1,7 @@
 // Chosen or dropped sources: films, pictures, tables; folders are read.
 
-/** Files to learn from, all of one kind; or a sentence for the user that says why there are none. */
-export type Pick =
-  | { kind: 'film' | 'pictures' | 'table'; files: File[] }
-  | { kind: 'nothing'; words: string };
+/** Files to learn from, all of one kind; and a sentence for the user about what is left out, '' if nothing is. */
+export interface Pick { kind: 'film' | 'pictures' | 'table' | 'nothing'; files: File[]; words: string }
 
 const isPicture = ({ name, type }: File): boolean => /^image\/(?!gif|svg)/.test(type) || /\.(png|jpe?g|webp|bmp)$/i.test(name);
 const isFilm = ({ name, type }: File): boolean => type.startsWith('video/') || /\.(mp4|mov|m4v|mkv|webm|avi|gif)$/i.test(name);
@@ -22,21 +20,25 @@ async function filesOf(entry: FileSystemEntry): Promise<File[]> {
   }
 }
 
-/** Returns the files in dropped folders; if there are no folders, the dropped files. */
+/** Returns the dropped files, and those in dropped folders. */
 export async function unfold(files: readonly File[], entries: readonly (FileSystemEntry | null)[]): Promise<File[]> {
-  const folders = entries.filter((entry): entry is FileSystemEntry => entry?.isDirectory === true);
-  if (folders.length === 0) return [...files];
-  return (await Promise.all(folders.map(filesOf))).flat();
+  if (!entries.some((entry) => entry?.isDirectory === true)) return [...files];
+  return (await Promise.all(entries.filter((entry) => entry !== null).map(filesOf))).flat();
 }
 
-export function pickOf(files: readonly File[]): Pick {
-  const films = files.filter(isFilm);
-  if (films.length > 0) return { kind: 'film', files: films };
-  const pictures = files.filter(isPicture);
-  if (pictures.length > 1) return { kind: 'pictures', files: pictures };
-  if (pictures.length === 1) return { kind: 'nothing', words: 'One picture does not move. Choose a film, or the whole folder of numbered pictures.' };
-  const tables = files.filter(isTable);
-  if (tables.length > 0) return { kind: 'table', files: tables };
+export function pickOf(given: readonly File[]): Pick {
+  // A leading dot marks a system's own files: a Mac adds one to every file on a foreign disk.
+  const files = given.filter(({ name }) => !name.startsWith('.'));
+  const [films, pictures, tables] = [files.filter(isFilm), files.filter(isPicture), files.filter(isTable)];
+  const alone = (what: string, others: number): string => (others > 0 ? `Of these, the ${what} alone are looked at: give the others by themselves.` : '');
+  if (films.length > 0) return { kind: 'film', files: films, words: alone('films', pictures.length + tables.length) };
+  if (pictures.length > 1) return { kind: 'pictures', files: pictures, words: alone('pictures', tables.length) };
+  const [table] = tables;
+  if (table !== undefined) {
+    const words = `Of the ${pictures.length > 0 ? 'files' : 'tables'}, ${table.name} alone is read: each is learned by itself.`;
+    return { kind: 'table', files: [table], words: tables.length + pictures.length > 1 ? words : '' };
+  }
+  if (pictures.length > 0) return { kind: 'nothing', files, words: 'One picture does not move. Choose a film, or the whole folder of numbered pictures.' };
   const [name] = files.map((file) => file.name);
-  return { kind: 'nothing', words: name === undefined ? 'There is no picture in this folder.' : `${name} is no film, no picture and no table. Choose a film (MP4, MOV, WebM, MKV), a folder of numbered pictures, or a table (CSV); unpack an archive first.` };
+  return { kind: 'nothing', files, words: name === undefined ? 'There is no picture in this folder.' : `${name} is no film, no picture and no table. Choose a film (MP4, MOV, WebM, MKV), a folder of numbered pictures, or a table (CSV); unpack an archive first.` };
 }

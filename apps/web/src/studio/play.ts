@@ -31,9 +31,7 @@ export class Play {
   }
 
   /** Size of the flame, 0 to 1. */
-  get size(): number {
-    return this.burns ? this.bank.flameState(this.flame).flameSize : 1;
-  }
+  get size(): number { return this.burns ? this.bank.flameState(this.flame).flameSize : 1; }
 
   /** Plays to a row; restarts for an earlier row or one far ahead. */
   goTo(row: number): void {
@@ -57,9 +55,7 @@ export class Play {
     return this.shape.placed(this.unit, x, y);
   }
 
-  free(): void {
-    this.bank.free();
-  }
+  free(): void { this.bank.free(); }
 
   // Whether the film shows a flame in weak wind: it then did not go out in the gust before, or was lit again.
   private filmBurns(): boolean {

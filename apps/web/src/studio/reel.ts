@@ -7,20 +7,20 @@ const MOST = 420;
 export const MAX_OF_FILE = 105;
 export const KEPT_HEIGHT = 200;
 
-/** A kept picture: its time in seconds, and the part of the film it shows, pixels of the film. */
-export interface Kept { seconds: number; bitmap: ImageBitmap; part: Region }
+/** A kept picture: its time in seconds, and the part of the film it shows of a whole, pixels of the film. */
+export interface Kept { seconds: number; bitmap: ImageBitmap; part: Region; whole: { width: number; height: number } }
 
 export class Reel {
   private pictures: Kept[] = [];
   private last = -Infinity;
+  /** factor from the times of findings to seconds */
+  private unit = 1;
 
   /** `every`: initial seconds between pictures; `most`: maximum number */
   constructor(private every = 0, private readonly most = MOST) {}
 
   /** Whether a picture at a time would be kept. */
-  wants(seconds: number): boolean {
-    return seconds - this.last >= 0.98 * this.every;
-  }
+  wants(seconds: number): boolean { return seconds - this.last >= 0.98 * this.every; }
 
   /** Keeps a picture and takes over its ownership. */
   keep(picture: Kept): void {
@@ -44,7 +44,7 @@ export class Reel {
     // Part of the film shown by the whole pixels that are copied, so that an outline drawn over them fits.
     const part = { x: x / share, y: y / share, width: wide / share, height: tall / share };
     createImageBitmap(picture, x, y, wide, tall, { resizeHeight: Math.min(tall, KEPT_HEIGHT), resizeQuality: 'medium' }).then(
-      (bitmap) => this.keep({ seconds: frame - 1, bitmap, part }),
+      (bitmap) => this.keep({ seconds: this.unit * (frame - 1), bitmap, part, whole: { width, height } }),
       () => undefined,
     );
   }
@@ -57,12 +57,11 @@ export class Reel {
 
   /** Multiplies all times, which converts frame numbers to seconds. */
   scale(factor: number): void {
+    this.unit *= factor;
     for (const picture of this.pictures) picture.seconds *= factor;
   }
 
-  close(): void {
-    for (const { bitmap } of this.pictures.splice(0)) bitmap.close();
-  }
+  close(): void { for (const { bitmap } of this.pictures.splice(0)) bitmap.close(); }
 }
 
 /** Box of a flame with a margin, within the picture. */
@@ -70,10 +69,6 @@ export function around(box: Region, width: number, height: number): Region {
   const air = box.height;
   const x = Math.max(0, Math.floor(box.x - air));
   const y = Math.max(0, Math.floor(box.y - 0.6 * air));
-  return {
-    x,
-    y,
-    width: Math.min(width, Math.ceil(box.x + box.width + air)) - x,
-    height: Math.min(height, Math.ceil(box.y + box.height + 0.6 * air)) - y,
-  };
+  const [right, low] = [Math.ceil(box.x + box.width + air), Math.ceil(box.y + box.height + 0.6 * air)];
+  return { x, y, width: Math.min(width, right) - x, height: Math.min(height, low) - y };
 }

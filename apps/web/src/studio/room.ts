@@ -22,7 +22,7 @@ import { resultPanel } from './panels/result.js';
 import { nameInC, type Format, type Moving } from './panels/taking.js';
 import { saveFile } from '../saving.js';
 import type { StudioDoor } from '../studio_door.js';
-import { emptied, newSession, sessionName, shownIn, thingOf, withTake, type Looked, type Session, type Take } from './session.js';
+import { emptied, filmsOf, newSession, sessionName, shownIn, thingOf, withoutTake, withTake, type Looked, type Session, type Take } from './session.js';
 import { LEARNING, LOOKING, STEP_WORDS, STEPS, type Step } from './steps.js';
 import { Strip } from './pictures/strip.js';
 import { tablePanel } from './panels/table.js';
@@ -41,13 +41,14 @@ const LINK_ORDER = 4;
 
 /** Seconds of loops exported to other tools, and number of instances. */
 const LOOPED: Readonly<Record<Thing, { loop: number; instances: number }>> = {
-  flame: { loop: 4, instances: 1 },
-  fall: { loop: 6, instances: 20 },
-  table: { loop: 4, instances: 1 },
+  flame: { loop: 4, instances: 1 }, fall: { loop: 6, instances: 20 }, table: { loop: 4, instances: 1 },
 };
 
 /** Maximum bytes of a table, as text, numbers and learning data are in memory together. */
 const MAX_TABLE_BYTES = 100e6;
+
+const APART = 'A flame and what falls are learned apart. The other films are set aside until what was added now is left out.';
+const BUSY = 'A film is still being looked at: give pictures or a table when that is done, or cancel it.';
 
 /** Initial number of frames between kept pictures of a film. */
 const FRAMES_APART = 3;
@@ -75,7 +76,7 @@ export class Room {
   private working: Working | null = null;
   /** ends the validation that still computes plots */
   private judging: AbortController | null = null;
-  /** films chosen together with the current one */
+  /** films chosen together with the current one, or while it is analysed */
   private waiting: File[] = [];
   /** film that a dragged box refers to */
   private looked: Looked | null = null;
@@ -106,7 +107,8 @@ export class Room {
     }
     this.invitation.loop.stop();
     this.duet?.stop();
-    if (this.filming !== null) this.gather();
+    // What was filmed and is looked over is not lost.
+    if (this.filming !== null && this.filming.state !== 'ending') this.gather();
   }
 
   take({ files, entries }: Dropped): void {
@@ -127,22 +129,17 @@ export class Room {
     if (here || document.activeElement === document.body) panel.querySelector<HTMLElement>('h2')?.focus({ preventScroll: true });
   }
 
-  private invite(): void {
-    this.left.replaceChildren(element('div', { class: 'viewer' }, this.invitation.canvas));
-  }
+  private invite(): void { this.left.replaceChildren(element('div', { class: 'viewer' }, this.invitation.canvas)); }
 
-  say(words: string): void {
-    this.app.notices.say(words);
-  }
+  say(words: string): void { this.app.notices.say(words); }
 
   /** Reads a message to screen readers only. */
-  announce(words: string): void {
-    this.spoken.textContent = words;
-  }
+  announce(words: string): void { this.spoken.textContent = words; }
 
-  /** Ends all running work. */
-  private clear(): void {
+  /** Ends all running work. `waiting`: films that are still to be analysed */
+  private clear(waiting: File[] = []): void {
     this.turn += 1;
+    this.waiting = waiting;
     for (const work of [this.working, this.judging]) work?.abort();
     this.filming?.close();
     this.duet?.dispose();
@@ -155,9 +152,11 @@ export class Room {
     this.stepTo('gather');
     this.viewer.clear();
     this.invite();
-    const { takes, learned } = this.session;
-    const more = takes.length === 0 || (learned === null && thingOf(this.session) === 'table') ? null : { count: takes.length, thing: thingOf(this.session), back: () => this.back() };
-    this.showPanel(gatherPanel(this, more));
+    // A table from which nothing was learned is not kept; the films before it are.
+    const [table] = thingOf(this.session) === 'table' && this.session.learned === null ? this.session.takes : [];
+    if (table !== undefined) this.session = withoutTake(this.session, table);
+    const { length: count } = this.session.takes;
+    this.showPanel(gatherPanel(this, count === 0 ? null : { count, thing: thingOf(this.session), back: () => this.back() }));
   }
 
   /** Returns to the last result or film, or to the choice of sources. */
@@ -168,20 +167,31 @@ export class Room {
     else this.showLook(last);
   }
 
-  files(files: File[]): void {
-    const pick = pickOf(files);
-    if (pick.kind === 'nothing') this.say(pick.words);
-    else if (pick.kind === 'table') void this.table(pick.files[0] as File);
-    else if (pick.kind === 'film') {
-      this.waiting = pick.files;
-      this.lookAtNext();
-    } else this.pictures(pick.files);
+  files(given: File[]): void {
+    const { kind, files, words } = pickOf(given);
+    const { busy } = this;
+    if (words !== '') this.say(words);
+    if (kind === 'film') {
+      this.waiting = busy ? [...this.waiting, ...files] : files;
+      if (busy) this.say('What was added is looked at after this film.');
+      else this.lookAtNext();
+    } else if (kind !== 'nothing' && busy) this.say(BUSY);
+    else if (kind === 'table') void this.table(files[0] as File);
+    else if (kind === 'pictures') this.pictures(files);
+  }
+
+  /** Whether a film is made or looked at, which other sources would end. */
+  private get busy(): boolean {
+    const { looked, working, filming } = this;
+    return (looked !== null && working?.control.signal.aborted === false) || filming?.state === 'filming' || filming?.state === 'ending';
   }
 
   /** Asks for the rate of numbered pictures, which they do not contain. */
   private pictures(files: File[]): void {
     this.clear();
     this.stepTo('gather');
+    this.viewer.clear();
+    this.invite();
     const folder = files[0]?.webkitRelativePath.split('/')[0] ?? '';
     const name = folder === '' ? 'pictures' : folder;
     this.showPanel(
@@ -199,7 +209,7 @@ export class Room {
 
   /** Analyses a film, with a live display of the outline. */
   private async look(name: string, film: File | null, settings: PictureSettings, capture: NonNullable<Take['again']>): Promise<void> {
-    this.clear();
+    this.clear(this.waiting);
     const { turn } = this;
     this.stepTo('look', settings.looks_for === 'falls' ? 'fall' : 'flame');
     this.viewer.clear();
@@ -225,10 +235,7 @@ export class Room {
   }
 
   /** Plots the tip during filming. */
-  traceLive(): void {
-    this.traces.begin();
-    this.below.replaceChildren(this.traces.place);
-  }
+  traceLive(): void { this.traces.begin(); this.below.replaceChildren(this.traces.place); }
 
   private see(seen: Seen, reel: Reel, working: Working): void {
     if (working !== this.working) return seen.picture?.close();
@@ -242,7 +249,9 @@ export class Room {
 
   /** Stores a take: in place of an earlier version of the film, else at the end. Then analyses the next film. */
   private keep(take: Take): void {
+    const { takes } = this.session;
     this.session = withTake(this.session, take);
+    if (this.session.aside.some((one) => takes.includes(one))) this.say(APART);
     if (!this.lookAtNext()) this.showLook(take);
   }
 
@@ -252,31 +261,27 @@ export class Room {
     this.stepTo('look', shownIn(take));
     this.left.replaceChildren(this.viewer.place);
     this.viewer.showBox(take.settings.region ?? null);
-    this.viewer.showFalls((size) => linesOfFalls(take.captured, take.settings.height ?? 1, size));
     const { outlines } = take;
-    // A camera's film is not kept, so falls are drawn over a picture of the wall.
-    const wall = outlines === null && take.film === null ? take.reel.at(0) : null;
-    if (wall !== null) this.viewer.still(wall, new Float32Array());
+    const line = this.viewer.shows ? null : this.showStill(take);
+    this.viewer.showLines((size) => (line !== null ? [line] : linesOfFalls(take.captured, take.settings.height ?? 1, size)));
     if (outlines !== null) {
       this.viewer.showFollowed();
-      if (take.film === null) this.showStill(take, outlines);
       this.traces.fill(outlines);
       this.below.replaceChildren(this.traces.place);
     }
     this.showPanel(lookPanel(take, this.session.takes, this));
   }
 
-  /** Shows a moment near the middle of a camera's film, which is not kept, with its outline. */
-  private showStill({ reel }: Take, outlines: Outlines): void {
-    const kept = reel.at(0.4 * (outlines.rows / outlines.rate));
-    const line = kept === null ? null : outlines.line(Math.round(kept.seconds * outlines.rate));
-    if (kept !== null && line !== null) this.viewer.still(kept, line);
+  /** Shows a kept picture, near the middle of a flame's film, where the viewer has none. Returns its outline. */
+  private showStill({ reel, outlines }: Take): Float32Array | null {
+    const kept = reel.at(outlines === null ? 0 : 0.4 * (outlines.rows / outlines.rate));
+    if (kept !== null) this.viewer.still(kept);
+    return kept === null || outlines === null ? null : outlines.line(Math.round(kept.seconds * outlines.rate));
   }
 
   leaveOut(take: Take): void {
-    this.session.takes = this.session.takes.filter((one) => one !== take);
-    this.session.learned = null;
-    take.reel.close();
+    this.session = withoutTake(this.session, take);
+    this.viewer.clear();
     this.back();
   }
 
@@ -300,23 +305,29 @@ export class Room {
   }
 
   /** After a failure, ends the worker: later work starts another, with fresh memory. */
-  private renew(): void {
-    this.studio().then((studio) => studio.close(), () => undefined);
-  }
+  private renew(): void { this.studio().then((studio) => studio.close(), () => undefined); }
 
   /** Reports why a film gave nothing, or was stopped, and what can be done. */
   private notFound(error: unknown): void {
     this.working = null;
-    this.waiting = [];
     if (isAbort(error)) {
+      this.viewer.clear();
+      this.waiting = [];
       this.say(this.session.takes.length > 0 ? 'Stopped. What was gathered before is kept.' : 'Stopped.');
       return this.back();
     }
     this.renew();
+    if (this.passedOver(wordsOf(error))) return;
     const kept = this.session.takes.length > 0 ? 'What was gathered before is kept.' : '';
     if (!this.viewer.shows) this.invite();
     const otherwise = this.viewer.shows ? 'The picture stays: drag a box around what you mean to look there, or choose something else.' : kept;
     this.trouble('Nothing was learned from this', wordsOf(error), otherwise, this.viewer.shows);
+  }
+
+  /** Says why a film gave nothing, and looks at the next. Returns false where none waits, for a panel that says it. */
+  private passedOver(words: string): boolean {
+    if (this.waiting.length > 0) this.say(words);
+    return this.lookAtNext();
   }
 
   /** `seen`: whether there is a picture that can be analysed in another way. */
@@ -334,8 +345,8 @@ export class Room {
     this.clear();
     const { turn } = this;
     try {
-      const filming = await Filming.open(await this.studio(), this.viewer, falls, this);
-      if (turn !== this.turn || this.place.hidden) return filming.close();
+      const filming = await Filming.open(await this.studio(), this.viewer, falls, this, () => turn === this.turn && !this.place.hidden);
+      if (filming === null) return;
       this.filming = filming;
       this.stepTo('gather', falls ? 'fall' : 'flame');
       this.left.replaceChildren(this.viewer.place);
@@ -348,14 +359,16 @@ export class Room {
   /** Stores a filmed recording; null: goes back. */
   filmed(shot: { captured: Captured; reel: Reel; settings: PictureSettings } | null): void {
     this.filming = null;
-    if (shot === null) return this.back();
+    if (shot === null) return this.lookAtNext() ? undefined : this.back();
     const count = this.session.takes.filter(({ film }) => film === null).length + 1;
     this.keep({ ...shot, name: count === 1 ? 'camera' : `camera ${count}`, outlines: Outlines.of(shot.captured), film: null, again: null });
   }
 
   /** Says why filming gave nothing usable. */
-  notFilmed(words: string): void {
+  notFilmed(words: string, reel?: Reel): void {
     this.filming = null;
+    reel?.close();
+    if (this.passedOver(sentence(words))) return;
     this.trouble('Nothing was learned from this', sentence(words), 'What was gathered before is kept. Film again, or choose a film from your phone.');
   }
 
@@ -425,9 +438,7 @@ export class Room {
   }
 
   /** Name of the learned model's file. */
-  private get file(): string {
-    return `${sessionName(this.session)}.wisp`;
-  }
+  private get file(): string { return `${sessionName(this.session)}.wisp`; }
 
   /** Plays the learned model in the page's own scene. */
   blow(model: Uint8Array): void {
@@ -435,14 +446,10 @@ export class Room {
   }
 
   /** Saves a film or GIF in which the flame is blown out and lit again. Returns a message about the result. */
-  record(model: Uint8Array, kind: Moving): Promise<string> {
-    return this.door.film(this.file, model, kind);
-  }
+  record(model: Uint8Array, kind: Moving): Promise<string> { return this.door.film(this.file, model, kind); }
 
   /** Learns a model small enough for a link. */
-  async small(): Promise<Uint8Array> {
-    return (await this.learned(this.session, { paper: LINK_ORDER })).model;
-  }
+  async small(): Promise<Uint8Array> { return (await this.learned(this.session, { paper: LINK_ORDER })).model; }
 
   private showResult(): void {
     const { session, app } = this;
@@ -483,9 +490,10 @@ export class Room {
     void this.learn(recipe as unknown as Recipe);
   }
 
-  /** Starts over without the gathered sources. */
+  /** Starts over without the gathered sources; after a table, with the films before it. */
   anew(): void {
-    this.session = emptied(this.session);
+    if (thingOf(this.session) === 'table') this.session.learned = null;
+    else this.session = emptied(this.session);
     this.gather();
   }
 
@@ -500,6 +508,7 @@ export class Room {
       if (head.recording) return await this.tabled(file.name, bytes);
       this.clear();
       this.stepTo('look', 'table');
+      this.viewer.clear();
       this.left.replaceChildren(element('div', { class: 'plots' }, ...plotsOf(head.preview)));
       this.showPanel(tablePanel(file.name, head.named ?? bytes, head, this));
     } catch (error) {
@@ -518,10 +527,11 @@ export class Room {
       const captured = await (await this.studio()).table(name, bytes, settings);
       // The columns were left meanwhile.
       if (settings !== undefined && turn !== this.turn) return;
+      if (this.busy) return this.say(BUSY);
       const outlines = Outlines.of(captured);
       const take: Take = { name, captured, outlines, reel: new Reel(), film: null, settings: {}, again: null };
       if (outlines === null) {
-        this.session = { ...emptied(this.session), takes: [take], recipe: recipeOfTable(captured, settings) };
+        this.session = { ...newSession(), takes: [take], aside: filmsOf(this.session), recipe: recipeOfTable(captured, settings) };
         this.left.replaceChildren(element('div', { class: 'plots' }, ...plotsOf(recordedOf(captured))));
         await this.learn();
       } else {

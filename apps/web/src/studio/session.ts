@@ -24,7 +24,8 @@ export interface Take extends Looked {
   outlines: Outlines | null;
 }
 
-export interface Session { takes: Take[]; recipe: Recipe; learned: Learned | null }
+/** `aside`: films that are not learned from, as they show another kind of object, or as a table is */
+export interface Session { takes: Take[]; aside: Take[]; recipe: Recipe; learned: Learned | null }
 
 /** Kind of object in a film. */
 export const shownIn = ({ captured }: Take): Thing => (captured.series.some(({ name }) => name === 'pos.x') ? 'fall' : 'flame');
@@ -39,7 +40,7 @@ export const thingOf = ({ recipe }: Session): Thing => (recipe.kind === 'arx' ? 
 /** Names of a session's outputs. */
 export const outputsOf = ({ takes }: Session): string[] => (takes[0]?.captured.series ?? []).filter(({ role }) => role === 'output').map(({ name }) => name);
 
-export const newSession = (): Session => ({ takes: [], recipe: { kind: 'flame' }, learned: null });
+export const newSession = (): Session => ({ takes: [], aside: [], recipe: { kind: 'flame' }, learned: null });
 
 /** Name of files and model. */
 export function sessionName({ takes, recipe }: Session): string {
@@ -48,18 +49,35 @@ export function sessionName({ takes, recipe }: Session): string {
 }
 
 /** Releases a session's pictures and returns a new session. */
-export function emptied({ takes }: Session): Session {
-  for (const { reel } of takes) reel.close();
+export function emptied({ takes, aside }: Session): Session {
+  for (const { reel } of [...takes, ...aside]) reel.close();
   return newSession();
 }
 
-/** Adds a take, in place of an earlier version of its film, or at the end. Takes of another kind are dropped first. */
+/** A session's films of both kinds. A table, which is learned alone, is none of them. */
+export const filmsOf = (session: Session): Take[] => (thingOf(session) === 'table' ? [...session.aside] : [...session.aside, ...session.takes]);
+
+/** A session that learns from the films of the kind of `last`. */
+function sessionOf(films: readonly Take[], last: Take, { recipe }: Session): Session {
+  const takes = films.filter((take) => shownIn(take) === shownIn(last));
+  const falls = { ...recipeOfFalls(takes.map(({ captured }) => captured)), smooth_rows: smoothRows(last.captured.rate) };
+  const flame = recipe.kind === 'flame' ? recipe : newSession().recipe;
+  return { takes, aside: films.filter((take) => !takes.includes(take)), recipe: shownIn(last) === 'fall' ? falls : flame, learned: null };
+}
+
+/** Adds a take, in place of an earlier version of its film, or at the end. Takes of another kind are set aside. */
 export function withTake(session: Session, take: Take): Session {
-  const thing = shownIn(take);
-  const made = thingOf(session) === thing ? session : emptied(session);
-  const before = made.takes.findIndex(({ again }) => again !== null && again === take.again);
-  made.takes[before]?.reel.close();
-  made.takes.splice(before < 0 ? made.takes.length : before, before < 0 ? 0 : 1, take);
-  const recipe = thing === 'fall' ? { ...recipeOfFalls(made.takes.map(({ captured }) => captured)), smooth_rows: smoothRows(take.captured.rate) } : made.recipe;
-  return { ...made, recipe, learned: null };
+  const films = filmsOf(session);
+  const before = films.findIndex(({ again }) => again !== null && again === take.again);
+  films[before]?.reel.close();
+  films.splice(before < 0 ? films.length : before, before < 0 ? 0 : 1, take);
+  return sessionOf(films, take, session);
+}
+
+/** Leaves a take out. Where it was the last of its kind, those set aside return. */
+export function withoutTake(session: Session, take: Take): Session {
+  take.reel.close();
+  const films = filmsOf(session).filter((one) => one !== take);
+  const last = films.filter((one) => session.takes.includes(one)).at(-1) ?? films.at(-1);
+  return last === undefined ? newSession() : sessionOf(films, last, session);
 }

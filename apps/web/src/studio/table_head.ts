@@ -28,6 +28,8 @@ function cellsOf(line: string, separator: RegExp): string[] {
 /** Value of a cell with decimal comma or point, and Fortran's exponents; NaN where it is no number. */
 const numberOf = (text: string): number => (text === '' ? NaN : Number(text.replace(',', '.').replace(/d/i, 'e')));
 const isNumber = (text: string): boolean => text === '' || /^(nan|na|n\/a)$/i.test(text) || Number.isFinite(numberOf(text));
+/** Whether a cell is a date, a time of day, or both. */
+const isDate = (text: string): boolean => /^\d{1,4}[-./]\d{1,2}[-./]\d{1,4}([ T]\d{1,2}:\d\d.*)?$|^\d{1,2}:\d\d(:\d\d.*)?$/.test(text);
 
 /** Name of a column without role and unit, as the reader of tables splits it (src/record/csv_head.cpp). */
 export const nameOf = (column: string): string => column.replace(/^(u|y|m|flag):/, '').replace(/\[.*\]$/, '').trim();
@@ -44,8 +46,8 @@ export function headOf(bytes: Uint8Array): TableHead {
   const separator = separatorOf((lines[0] ?? '').replace(/"[^"]*"/g, ''));
   const cells = lines.map((line) => cellsOf(line, separator));
   const first = cells[0] ?? [];
-  const unnamed = first.length > 0 && first.every((name) => name !== '' && isNumber(name));
-  const names = unnamed ? first.map((_, k) => `c${k + 1}`) : first;
+  const unnamed = first.some((name) => Number.isFinite(numberOf(name))) && first.every((name) => name !== '' && (isNumber(name) || isDate(name)));
+  const names = unnamed ? first.map((text, k) => (!isDate(text) ? `c${k + 1}` : text.includes(':') ? 'time' : 'date')) : first;
   const rows = (unnamed ? cells : cells.slice(1)).filter((row) => row.length >= names.length);
   // The first row may contain units, so it may be non-numeric.
   const numeric = names.map((_, k) => rows.some((row) => Number.isFinite(numberOf(row[k] ?? ''))) && rows.slice(1).every((row) => isNumber(row[k] ?? '')));

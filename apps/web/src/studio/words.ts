@@ -107,11 +107,8 @@ export function verdictOf({ report, judged }: Learned, thing: Thing): Verdict {
 function judgedFits(report: Report): { name: string; next: number; free: number }[] {
   const channels = within(report, 'channels');
   if (!Array.isArray(channels)) return [];
-  return (channels as Report[]).map((channel) => ({
-    name: String(channel.name),
-    next: figure(channel, 'fit_percent', '1') ?? NaN,
-    free: figure(channel, 'fit_percent', 'inf') ?? NaN,
-  }));
+  const fit = (channel: Report, steps: string): number => figure(channel, 'fit_percent', steps) ?? NaN;
+  return (channels as Report[]).map((one) => ({ name: String(one.name), next: fit(one, '1'), free: fit(one, 'inf') }));
 }
 
 /** A figure as a bar: its filled share, and the share from which it is good. */
@@ -200,6 +197,5 @@ const STAGES: Readonly<Record<string, string>> = {
   'testing residuals': 'Looking whether anything is left that could be learned.',
 };
 
-export function stageInWords(stage: string, thing: Thing | 'either' = 'flame'): string {
-  return stage === 'capturing' ? CAPTURING[thing] : (STAGES[stage] ?? sentence(stage));
-}
+export const stageInWords = (stage: string, thing: Thing | 'either' = 'flame'): string =>
+  stage === 'capturing' ? CAPTURING[thing] : (STAGES[stage] ?? sentence(stage));

@@ -20,10 +20,7 @@ const ASLEEP = 1500;
 export const KEPT_RATE = 12;
 
 const VIDEO: MediaTrackConstraints = {
-  width: { ideal: 1280 },
-  height: { ideal: 720 },
-  frameRate: { ideal: 60 },
-  facingMode: { ideal: 'environment' },
+  width: { ideal: 1280 }, height: { ideal: 720 }, frameRate: { ideal: 60 }, facingMode: { ideal: 'environment' },
 };
 // Speech enhancement would remove the wind as noise.
 const AUDIO: MediaTrackConstraints = { echoCancellation: false, noiseSuppression: false, autoGainControl: false, channelCount: 1 };
@@ -101,23 +98,15 @@ export class Camera {
   /** `silent`: problem with the sound; '' if none. */
   private constructor(readonly stream: MediaStream, readonly silent: string, private readonly events: CameraEvents) {
     this.picture = stream.getVideoTracks()[0] as MediaStreamTrack;
-    this.picture.addEventListener('ended', () => {
-      if (!this.ended) events.lost();
-    });
-    stream.getAudioTracks()[0]?.addEventListener('ended', () => {
-      if (!this.ended) events.deaf();
-    });
+    this.picture.addEventListener('ended', () => this.ended || events.lost());
+    stream.getAudioTracks()[0]?.addEventListener('ended', () => this.ended || events.deaf());
   }
 
   /** Frames a second stated by the camera. */
-  get rate(): number {
-    return this.picture.getSettings().frameRate ?? 30;
-  }
+  get rate(): number { return this.picture.getSettings().frameRate || 30; }
 
   /** Whether an open camera gives no picture: used by another program or a call, or muted. */
-  get asleep(): boolean {
-    return this.picture.muted || performance.now() - this.latest > ASLEEP;
-  }
+  get asleep(): boolean { return this.picture.muted || performance.now() - this.latest > ASLEEP; }
 
   /** Resumes interrupted sound. */
   wake(): void {
@@ -172,9 +161,7 @@ export class Camera {
       frames += 1;
       this.latest = performance.now();
       const { live } = this;
-      if (live !== null && live.waiting < MAX_WAITING && frames % this.every === 0) {
-        void this.hand(live, video, (taken?.captureTime ?? now) / 1000);
-      }
+      if (live !== null && live.waiting < MAX_WAITING && frames % this.every === 0) void this.hand(live, video, (taken?.captureTime ?? now) / 1000);
       this.next(video, frame);
     };
     this.next(video, frame);

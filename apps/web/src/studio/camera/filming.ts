@@ -45,7 +45,7 @@ export class Filming {
   private count = new FallCount();
   private seen: Seen | null = null;
   private loud = 0;
-  private state: 'looking' | 'filming' | 'ending' | 'over' = 'looking';
+  state: 'looking' | 'filming' | 'ending' | 'over' = 'looking';
   private began = 0;
   private timer = 0;
   private darkened = 0;
@@ -58,8 +58,8 @@ export class Filming {
     if (document.hidden && this.state === 'filming') this.finish('Filming stopped when the page was hidden; what was filmed till then is kept.');
   };
 
-  /** Opens the camera, and for a flame the microphone. Throws a CameraTrouble with a sentence for people. */
-  static async open(studio: Studio, viewer: Viewer, falls: boolean, room: Room): Promise<Filming> {
+  /** Opens the camera, and for a flame the microphone; null if not `wanted` then. Throws a CameraTrouble with a sentence. */
+  static async open(studio: Studio, viewer: Viewer, falls: boolean, room: Room, wanted: () => boolean): Promise<Filming | null> {
     let filming: Filming | null = null;
     const happens = {
       lost: () => filming?.lose(),
@@ -67,16 +67,14 @@ export class Filming {
       loud: (level: number) => filming?.showLevel(level),
     };
     const camera = await Camera.open(happens, !falls);
-    filming = new Filming(studio, viewer, camera, falls, room);
-    return filming;
+    if (wanted()) return (filming = new Filming(studio, viewer, camera, falls, room));
+    camera.close();
+    return null;
   }
 
   private constructor(
-    private readonly studio: Studio,
-    private readonly viewer: Viewer,
-    private readonly camera: Camera,
-    private readonly falls: boolean,
-    private readonly room: Room,
+    private readonly studio: Studio, private readonly viewer: Viewer, private readonly camera: Camera,
+    private readonly falls: boolean, private readonly room: Room,
   ) {
     this.settings = falls ? { looks_for: 'falls' } : {};
     this.guide = this.newGuide();
@@ -89,9 +87,10 @@ export class Filming {
   }
 
   choose(region: Region | null): void {
+    if (this.state !== 'looking') return this.viewer.showBox(this.settings.region ?? null);
     const { region: _, ...rest } = this.settings;
     this.settings = region === null ? rest : { ...rest, region };
-    if (this.state === 'looking') this.look();
+    this.look();
   }
 
   /** Releases camera and microphone. */
@@ -126,13 +125,9 @@ export class Filming {
     );
   }
 
-  private get hears(): boolean {
-    return !this.falls && this.camera.silent === '';
-  }
+  private get hears(): boolean { return !this.falls && this.camera.silent === ''; }
 
-  private newGuide(): Guide {
-    return new Guide(this.falls ? 'falls' : this.hears ? 'flame' : 'mute flame');
-  }
+  private newGuide(): Guide { return new Guide(this.falls ? 'falls' : this.hears ? 'flame' : 'mute flame'); }
 
   /** Starts a capture of one frame in `every`: by default the preview, which keeps nothing. */
   private look(name = 'a look', every = PREVIEW_SHARE): void {
@@ -148,6 +143,8 @@ export class Filming {
 
   private async begin(): Promise<void> {
     this.state = 'filming';
+    // The capture takes its settings now.
+    for (const field of this.panel.querySelectorAll('input')) field.disabled = true;
     const said = await this.camera.lock();
     // No warning about exposure for falls: only their positions count, and the words would cover them.
     if (said !== '' && !this.falls) this.room.say(said);
@@ -221,7 +218,7 @@ export class Filming {
       const box = this.seen?.box ?? null;
       const part = box === null ? all : around(box, all.width, all.height);
       const bitmap = this.state === 'filming' ? smallPicture(video, part) : null;
-      if (bitmap !== null) reel.keep({ seconds: Math.max(0, (taken?.captureTime ?? now) - this.began) / 1000, bitmap, part });
+      if (bitmap !== null) reel.keep({ seconds: Math.max(0, (taken?.captureTime ?? now) - this.began) / 1000, bitmap, part, whole: all });
     });
   }
 
@@ -244,17 +241,15 @@ export class Filming {
     this.button.classList.add('small-word');
     this.viewer.say('');
     if (said !== '') this.room.say(said);
-    live.finish().then(
-      (captured) => {
-        this.close();
-        this.room.filmed({ captured, reel, settings });
-      },
-      (error: unknown) => {
-        this.close();
-        reel.close();
-        this.room.notFilmed(error instanceof Error ? error.message : String(error));
-      },
+    const shown = live.finish().then(
+      (captured) => () => this.room.filmed({ captured, reel, settings }),
+      (error: unknown) => () => this.room.notFilmed(error instanceof Error ? error.message : String(error), reel),
     );
+    void shown.then((show) => {
+      if (this.state === 'over') return reel.close(); // left by Back
+      this.close();
+      show();
+    });
   }
 
   private showLevel(level: number): void {

@@ -28,9 +28,7 @@ export class Guide {
   private gone = 0;
   private last = 0;
 
-  constructor(private readonly filmed: Filmed) {
-    this.plan = PLANS[filmed];
-  }
+  constructor(private readonly filmed: Filmed) { this.plan = PLANS[filmed]; }
 
   /**
    * Returns the action at a number of seconds after the start, and the finished share of the filming, 0 to 1. `falls`:
@@ -97,9 +95,8 @@ export class FallCount {
 const SHAKEN = 0.4;
 
 /** Problem of a picture in which something should fall; '' if none. */
-export function hintOfFalls({ moving, width, height }: Seen): string {
-  return moving !== null && moving.width * moving.height > SHAKEN * width * height ? 'Almost all of the picture moves. Let the camera lie still, before a plain wall.' : '';
-}
+export const hintOfFalls = ({ moving, width, height }: Seen): string =>
+  moving !== null && moving.width * moving.height > SHAKEN * width * height ? 'Almost all of the picture moves. Let the camera lie still, before a plain wall.' : '';
 
 /** Shares of the picture: minimum distance to its border, minimum height; maximum saturated share of the flame. */
 const BORDER = 0.015;

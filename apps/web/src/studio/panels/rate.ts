@@ -16,9 +16,7 @@ export function rateField(id: string, words: string, value: number | ''): { inpu
 /** A field for the height of the wall in the picture, as positions are in metres and films have no scale. */
 export function wallField(now: number, chosen: (metres: number) => void): HTMLElement {
   const { input, label } = rateField('wall-height', 'Metres of wall that the picture shows, top to bottom', now);
-  input.addEventListener('change', () => {
-    if (input.valueAsNumber >= 0.01 && input.valueAsNumber <= 100) chosen(input.valueAsNumber);
-  });
+  input.addEventListener('change', () => { if (input.valueAsNumber >= 0.01 && input.valueAsNumber <= 100) chosen(input.valueAsNumber); });
   return label;
 }
 

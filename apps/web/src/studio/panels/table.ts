@@ -48,7 +48,11 @@ export function tablePanel(name: string, bytes: Uint8Array, head: TableHead, roo
       check();
     };
     const barred = (role: string): boolean => head.numeric[k] !== true && role !== 'ignored';
-    const group = choice(column, ROLES.map((role) => [WORDS[role], { 'aria-pressed': String(roles[k] === role), 'data-column': `${column} ${role}`, disabled: barred(role), click: () => take(role) }]));
+    const words = head.numeric[k] === true ? column : `${column} (not all of it is numbers)`;
+    const group = choice(words, ROLES.map((role) => {
+      const pressed = String(roles[k] === role);
+      return [WORDS[role], { 'aria-pressed': pressed, 'data-column': `${column} ${role}`, disabled: barred(role), click: () => take(role) }];
+    }));
     rows.append(group);
   });
   rate.addEventListener('input', () => {

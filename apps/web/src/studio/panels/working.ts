@@ -10,7 +10,7 @@ export class Working {
   private readonly stage = element('p', { class: 'stage-words' });
   private readonly bar = element('progress', { max: 1, 'aria-label': 'Progress' });
   private readonly facts = element('dl', { class: 'found' });
-  private readonly control = new AbortController();
+  readonly control = new AbortController();
   private shown = '';
 
   /** `announce`: reads a message to screen readers */
@@ -32,9 +32,7 @@ export class Working {
     return { signal: this.control.signal, progress: (stage, share) => this.progress(stage, share), ...(seen === undefined ? {} : { seen }) };
   }
 
-  abort(): void {
-    this.control.abort();
-  }
+  abort(): void { this.control.abort(); }
 
   /** Shows names and values of what is found so far. */
   found(facts: readonly (readonly [string, string])[]): void {

@@ -66,9 +66,10 @@ const SHAPES = [0.45, 1.8] as const;
 /** Maximum number of falls shown. */
 const MAX_FALLS = 12;
 
-/** Side view of a path, relative to its start. */
+/** Side view of a path, relative to its first known position. */
 function wayOf(id: string, across: readonly number[], up: readonly number[]): Curve {
-  const from = (values: readonly number[]): number[] => values.map((value) => value - (values[0] as number));
+  const begin = across.findIndex((value, k) => Number.isFinite(value) && Number.isFinite(up[k]));
+  const from = (values: readonly number[]): number[] => values.map((value) => value - (values[begin] as number));
   return { id, label: id, x_label: 'metres', y_label: 'm', x: from(across), y: from(up) };
 }
 
@@ -149,10 +150,7 @@ function plotOf(curves: readonly Curve[], title: string, all: readonly (readonly
 
 function extent(values: readonly number[]): [number, number] {
   let [low, high] = [Infinity, -Infinity];
-  for (const value of values) {
-    if (value < low) low = value;
-    if (value > high) high = value;
-  }
+  for (const value of values) { if (value < low) low = value; if (value > high) high = value; }
   return low < high ? [low, high] : [low - 0.5, low + 0.5];
 }
 

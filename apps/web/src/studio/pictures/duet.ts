@@ -39,18 +39,14 @@ export class Duet {
   constructor(wisp: Library, private readonly take: Take, private readonly outlines: Outlines, model: Uint8Array, private readonly moved: (share: number) => void) {
     this.play = new Play(wisp, outlines, model);
     this.part = partOf(outlines);
-    this.place.append(
-      element('figure', {}, this.film, element('figcaption', {}, 'Your film')),
-      element('figure', {}, this.flame, element('figcaption', {}, 'What it learned')),
-    );
+    for (const [canvas, words] of [[this.film, 'Your film'], [this.flame, 'What it learned']] as const) {
+      this.place.append(element('figure', {}, canvas, element('figcaption', {}, words)));
+    }
     this.address = take.film === null ? null : URL.createObjectURL(take.film);
     if (this.address !== null) this.openFilm(this.address);
   }
 
-  stop(): void {
-    this.loop.stop();
-    this.video.pause();
-  }
+  stop(): void { this.loop.stop(); this.video.pause(); }
 
   dispose(): void {
     this.stop();
@@ -86,9 +82,7 @@ export class Duet {
       if (this.video.paused) this.video.play().catch(() => (this.filmed = false));
       // Follows the displayed frame where its time is known: on slow machines it lags behind currentTime.
       this.clock = this.shown ?? this.video.currentTime;
-    } else {
-      this.clock = (this.clock + seconds) % (rows / rate);
-    }
+    } else this.clock = (this.clock + seconds) % (rows / rate);
     const row = this.rowAt(this.clock);
     this.play.goTo(row);
     if (!this.filmed || this.shown === null) this.drawFilm(row);
@@ -105,9 +99,8 @@ export class Duet {
     if (surface === null) return;
     const { context, width, height } = surface;
     const fit = fitPart(this.part, { x: 0, y: 0, width, height });
-    if (this.filmed) {
-      context.drawImage(this.video, fit.x, fit.y, fit.scale * this.video.videoWidth, fit.scale * this.video.videoHeight);
-    } else {
+    if (this.filmed) context.drawImage(this.video, fit.x, fit.y, fit.scale * this.video.videoWidth, fit.scale * this.video.videoHeight);
+    else {
       const kept = this.take.reel.at(row / this.outlines.rate);
       if (kept !== null) drawKept(context, kept, fit);
     }

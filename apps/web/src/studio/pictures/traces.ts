@@ -47,15 +47,10 @@ export class Traces {
   }
 
   /** Shows a recording. */
-  fill({ wind, lean, rows, rate }: Outlines): void {
-    this.show(linesOf('Wind', wind, lean), rows / rate);
-  }
+  fill({ wind, lean, rows, rate }: Outlines): void { this.show(linesOf('Wind', wind, lean), rows / rate); }
 
   /** Clears the plots; add() then appends findings as they arrive. */
-  begin(): void {
-    this.live = { lean: [], loud: [] };
-    this.show([], 0);
-  }
+  begin(): void { this.live = { lean: [], loud: [] }; this.show([], 0); }
 
   private show(lines: Line[], seconds: number): void {
     [this.lines, this.seconds] = [lines, seconds];

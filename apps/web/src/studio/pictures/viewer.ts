@@ -39,7 +39,7 @@ export class Viewer {
   private box: Region | null = null;
   /** past centres of a falling object */
   private trail: number[] = [];
-  private falls: readonly Float32Array[] = [];
+  private lines: readonly Float32Array[] = [];
   private readonly draw = atRefresh(() => this.drawNow());
   private from: { x: number; y: number } | null = null;
 
@@ -58,9 +58,7 @@ export class Viewer {
   }
 
   /** Whether there is a picture of a film. */
-  get shows(): boolean {
-    return this.picture !== null;
-  }
+  get shows(): boolean { return this.picture !== null; }
 
   /** Clears picture and findings. */
   clear(): void {
@@ -68,7 +66,7 @@ export class Viewer {
     this.followed?.picture.close();
     this.picture = this.kept = this.size = this.seen = this.box = this.followed = null;
     this.trail = [];
-    this.falls = [];
+    this.lines = [];
     this.say('');
     this.draw();
   }
@@ -107,10 +105,10 @@ export class Viewer {
     this.draw();
   }
 
-  /** Shows detected falls over the film's last picture. `lines` receives the picture's size. */
-  showFalls(lines: (size: { width: number; height: number }) => readonly Float32Array[]): void {
+  /** Shows detected lines over the film's picture. `lines` receives the picture's size. */
+  showLines(lines: (size: { width: number; height: number }) => readonly Float32Array[]): void {
     this.trail = [];
-    this.falls = this.size === null ? [] : lines(this.size);
+    this.lines = this.size === null ? [] : lines(this.size);
     if (this.seen !== null) this.seen = { ...this.seen, moving: null };
     this.draw();
   }
@@ -120,19 +118,16 @@ export class Viewer {
     if (moving !== null) this.trail = [...this.trail, moving.x + moving.width / 2, moving.y + moving.height / 2].slice(-2 * TRAIL);
   }
 
-  /** Shows one moment of a camera's film, of which only small pictures are kept. */
-  still(kept: Kept, outline: Float32Array): void {
-    if (this.picture !== null) return;
+  /** Shows one moment of a film, of which only small pictures are kept. */
+  still(kept: Kept): void {
     this.kept = kept;
-    if (this.seen !== null) this.seen = { ...this.seen, outline };
+    this.size = kept.whole;
+    this.seen = null;
     this.draw();
   }
 
   /** Shows the chosen region, pixels of the film. */
-  showBox(region: Region | null): void {
-    this.box = region;
-    this.draw();
-  }
+  showBox(region: Region | null): void { this.box = region; this.draw(); }
 
   private get dimensions(): { width: number; height: number } | null {
     if (!this.video.hidden && this.video.videoWidth > 0) return { width: this.video.videoWidth, height: this.video.videoHeight };
@@ -152,7 +147,7 @@ export class Viewer {
     const { context } = surface;
     if (this.video.hidden) this.drawFilm(context, fit);
     if (seen !== null && seen.outline.length > 2) drawOutline(context, seen.outline, fit);
-    for (const line of this.falls) drawOutline(context, line, fit);
+    for (const line of this.lines) drawOutline(context, line, fit);
     if (seen?.moving != null) drawMoving(context, seen.moving, this.trail, fit);
     if (box !== null) drawBox(context, box, fit, surface.width, surface.height);
   }
@@ -167,7 +162,7 @@ export class Viewer {
   private filmPoint({ offsetX, offsetY }: PointerEvent): { x: number; y: number } | null {
     const { fit, dimensions } = this;
     if (fit === null || dimensions === null) return null;
-    const within = (value: number, most: number): number => Math.max(0, Math.min(most, value));
+    const within = (value: number, most: number): number => Math.round(Math.max(0, Math.min(most, value)));
     return { x: within((offsetX - fit.x) / fit.scale, dimensions.width), y: within((offsetY - fit.y) / fit.scale, dimensions.height) };
   }
 
@@ -180,12 +175,7 @@ export class Viewer {
     const to = this.filmPoint(event);
     const { from } = this;
     if (from === null || to === null) return;
-    this.showBox({
-      x: Math.round(Math.min(from.x, to.x)),
-      y: Math.round(Math.min(from.y, to.y)),
-      width: Math.round(Math.abs(to.x - from.x)),
-      height: Math.round(Math.abs(to.y - from.y)),
-    });
+    this.showBox({ x: Math.min(from.x, to.x), y: Math.min(from.y, to.y), width: Math.abs(to.x - from.x), height: Math.abs(to.y - from.y) });
   }
 
   private end(): void {
@@ -211,9 +201,7 @@ export class Viewer {
       event.preventDefault();
       const box = this.box ?? { x: all.width / 4, y: all.height / 4, width: all.width / 2, height: all.height / 2 };
       const [across, down] = [way[0] * KEY_STEP * all.width, way[1] * KEY_STEP * all.height];
-      const moved = event.shiftKey
-        ? { ...box, width: box.width + across, height: box.height + down }
-        : { ...box, x: box.x + across, y: box.y + down };
+      const moved = event.shiftKey ? { ...box, width: box.width + across, height: box.height + down } : { ...box, x: box.x + across, y: box.y + down };
       this.showBox(inside(moved, all));
     } else if (event.key === 'Enter' && this.box !== null) this.chosen(this.box);
     else if (event.key === 'Escape' && this.box !== null) this.drop();
