@@ -82,7 +82,7 @@ extern "C" {
 wisp_status wisp_recording_create(double rate_hz, wisp_recording** recording) {
   if (!recording) return null_argument("wisp_recording_create");
   if (!(rate_hz > 0 && rate_hz < 1e9)) {
-    return fail(WISP_BAD_ARGUMENT, "wisp_recording_create was given %g samples a second, expected above 0", rate_hz);
+    return fail(WISP_BAD_ARGUMENT, "wisp_recording_create was given %g samples a second, expected 0 to 1e9", rate_hz);
   }
   return guarded("wisp_recording_create", [&] {
     *recording = new wisp_recording{{.source = "the recording", .rate_hz = rate_hz}};

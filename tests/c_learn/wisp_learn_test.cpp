@@ -142,6 +142,8 @@ TEST_F(CLearn, MisuseHasItsStatus) {
   EXPECT_EQ(wisp_learn(&recording_, 0, &chain, nullptr, nullptr, &fit_), WISP_BAD_ARGUMENT);
   wisp_recording* none = nullptr;
   EXPECT_EQ(wisp_recording_create(-1, &none), WISP_BAD_ARGUMENT);
+  EXPECT_EQ(wisp_recording_create(2e9, &none), WISP_BAD_ARGUMENT);
+  EXPECT_STREQ(wisp_last_error(), "wisp_recording_create was given 2e+09 samples a second, expected 0 to 1e9");
   const double one = 1;
   EXPECT_EQ(wisp_recording_add(recording_, WISP_ROLE_INPUT, "b", "", &one, 1), WISP_BAD_ARGUMENT) << "another length";
   EXPECT_EQ(wisp_recording_add(recording_, 7, "b", "", &one, 800), WISP_BAD_ARGUMENT);

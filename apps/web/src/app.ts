@@ -146,7 +146,7 @@ export class App {
     const link = linkOf(this.settings, this.own);
     if (location.hash !== link && !this.overlay) history.replaceState(null, '', link);
     const { playing } = this.player;
-    if (needsModel) void this.playChosen();
+    if (needsModel) this.playChosen().catch((error: Error) => this.notices.say(error.message));
     else if (playing !== null) this.controls.show(playing.tab, this.settings);
     this.greet();
     // Updates the drawer after a key changed what it shows.
@@ -334,13 +334,10 @@ export class App {
       this.controls.hear(state, this.parts.ear.level);
       this.parts.tuning.frame();
     }
-    this.probe.frames = this.stage.frames;
-    this.probe.wind = reading.wind;
-    this.probe.answer = reading.answer;
+    Object.assign(this.probe, reading, { frames: this.stage.frames });
     this.offerWind(playing, reading.wind);
     if (playing.scene instanceof CandleScene) return this.watchCandles(playing.scene);
-    this.probe.burning = null;
-    this.probe.leaves = playing.scene.leaves?.() ?? null;
+    Object.assign(this.probe, { burning: null, leaves: playing.scene.leaves?.() ?? null });
     this.controls.setActive(true);
   }
 
@@ -358,17 +355,13 @@ export class App {
     this.offered = playing;
     this.notices.say(`${playing.file} was learned without wind: it cannot lean or go out.`, {
       words: 'Borrow the shipped answer to wind',
-      accept: () => void this.player.borrowWind(),
+      accept: () => this.player.borrowWind().catch((error: unknown) => this.soon((late) => late.sayWrong(this, error))),
     });
   }
 
   private watchCandles(scene: CandleScene): void {
     const burning = scene.burning();
-    this.probe.burning = burning;
-    this.probe.smoking = scene.smoking;
-    this.probe.candleX = scene.firstX;
-    this.probe.azimuth = scene.orbit.azimuth;
-    this.probe.leaves = null;
+    Object.assign(this.probe, { burning, smoking: scene.smoking, candleX: scene.firstX, azimuth: scene.orbit.azimuth, leaves: null });
     const allLit = burning.lit === burning.of;
     if (!allLit) this.parts?.ear.blownOut();
     this.controls.setActive(!allLit);

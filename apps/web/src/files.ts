@@ -1,30 +1,27 @@
 // Reading of dropped files, with helpful messages for unsuitable ones.
 
+import { WispError } from '@wisp/player/parts/native';
+
 /** Maximum size of a model, bytes. */
 const MAX_BYTES = 16e6;
 
-/** Reason why a file was not played. */
-export class Refused extends Error {}
-
-/** Reads a dropped model. Throws Refused with a sentence for people. */
+/** Reads a dropped model. Throws an Error with a sentence for people. */
 export async function readDropped(file: File): Promise<Uint8Array> {
   const { name } = file;
-  if (file.size === 0) throw new Refused(`${name} is empty. Was it still being saved?`);
+  if (file.size === 0) throw new Error(`${name} is empty. Was it still being saved?`);
   if (file.size > MAX_BYTES) {
-    throw new Refused(`${name} is ${Math.round(file.size / 1e6)} MB large. Models are a few kilobytes, a megabyte at most.`);
+    throw new Error(`${name} is ${Math.round(file.size / 1e6)} MB large. Models are a few kilobytes, a megabyte at most.`);
   }
   try {
     return new Uint8Array(await file.arrayBuffer());
   } catch {
-    throw new Refused(`${name} cannot be read.`);
+    throw new Error(`${name} cannot be read.`);
   }
 }
 
-/** Explains what is wrong with a file that is not a valid model. */
-export function refusalOf(name: string, error: unknown): Refused {
-  const why = error instanceof Error ? error.message : String(error);
-  return new Refused(`${name} is not a model that can be played: ${why.replace(/\.$/, '')}.`);
-}
+/** Explains what is wrong with a file that is not a valid model; other errors stay. */
+export const refusalOf = (name: string, error: unknown): unknown =>
+  error instanceof WispError ? new Error(`${name} is not a model that can be played: ${error.message.replace(/\.$/, '')}.`) : error;
 
 /** Whether the files are for learning in the studio: a film, pictures, a folder of them, or a table. */
 export function isLesson(files: readonly File[], entries: readonly (FileSystemEntry | null)[]): boolean {

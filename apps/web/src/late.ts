@@ -3,7 +3,7 @@
 import './late.css';
 import type { App } from './app.js';
 import type { Dropped } from './drops.js';
-import { isLesson, readDropped, refusalOf, Refused } from './files.js';
+import { isLesson, readDropped, refusalOf } from './files.js';
 import { Card } from './panel/card.js';
 import { Drawer } from './panel/drawer.js';
 import { byId } from './panel/element.js';
@@ -55,5 +55,5 @@ export function openDropped(app: App, { files, entries }: Dropped): void {
       door?.leave();
       app.notices.say(`Playing ${file.name}.`);
     })
-    .catch((error: unknown) => sayWrong(app, error instanceof Refused ? error : refusalOf(file.name, error)));
+    .catch((error: unknown) => sayWrong(app, refusalOf(file.name, error)));
 }

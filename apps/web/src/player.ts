@@ -46,12 +46,11 @@ export class Player {
     const { playing } = this;
     if (!(playing?.scene instanceof CandleScene)) return;
     const lender = this.wisp.model(await fetchShipped(FLAME));
-    await playing.scene.borrow(lender);
+    await playing.scene.borrow(lender).finally(() => lender.free());
     if (this.playing === playing && !playing.borrows) {
       playing.borrows = true;
       this.changed(playing);
     }
-    lender.free();
   }
 
   /** Plays the shipped model of the settings' scene. Throws where it cannot be fetched. */
@@ -73,10 +72,10 @@ export class Player {
     const before = { ...this.settings };
     Object.assign(this.settings, change);
     const { playing } = this;
-    if (playing === null) return false;
     const { scene } = this.settings;
     if (change.model !== undefined && change.model !== before.model) return true;
-    if (change.scene !== undefined && (scene !== before.scene || scene !== playing.tab || !playing.shipped)) return true;
+    if (change.scene !== undefined && (scene !== before.scene || scene !== playing?.tab || !playing.shipped)) return true;
+    if (playing === null) return false;
     if (this.settings.seed === before.seed) playing.scene.apply(this.sceneSettings(playing.tab));
     else {
       // A scene takes its seed when it is made.

@@ -43,7 +43,7 @@ export class Probe {
   }
 
   push(cost: Readonly<FrameCost>): void {
-    this.kept.push({ ...cost });
+    this.kept.push(cost);
     if (this.kept.length > KEPT) this.kept.shift();
   }
 }

@@ -53,4 +53,10 @@ describe('what was learned', { skip }, () => {
     const words = await page.$$eval('.notice p', (all) => all.map((one) => one.textContent));
     assert.ok(words.every((text) => /[.!?]$/.test(text) && !/[^.!?] What plays/.test(text)), words.join(' | '));
   });
+
+  it('says what is missing where a part does not arrive, and does not blame the model', async () => {
+    await page.route(/assets\/scene-/, (route) => route.fulfill({ contentType: 'text/javascript', body: 'throw 1' }));
+    await drop(page, 'leaf.wisp', readFileSync(new URL('../public/models/leaf.wisp', import.meta.url)));
+    await says(page, '#notices', '(^|×)A piece of this page could not be fetched');
+  });
 });

@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { after, before, describe, it } from 'node:test';
-import { openBrowser, skip, until } from './browser.js';
+import { openBrowser, seen, skip, until } from './browser.js';
 
 describe('a piece that is lost on its way', { skip }, () => {
   let opened;
@@ -11,11 +11,11 @@ describe('a piece that is lost on its way', { skip }, () => {
 
   it('is fetched again: help, leaves, their model and the studio open', async () => {
     const page = await opened.page('#scene=candle&detail=0.1');
-    const seen = new Set();
+    const lost = new Set();
     await page.route(/assets\/.*\.js$|leaf\.wisp$/, (route) => {
       const url = route.request().url();
-      if (seen.has(url)) return route.continue();
-      seen.add(url);
+      if (lost.has(url)) return route.continue();
+      lost.add(url);
       return route.abort();
     });
     await page.focus('#stage');
@@ -28,7 +28,18 @@ describe('a piece that is lost on its way', { skip }, () => {
     await page.keyboard.press('Escape');
     await page.keyboard.press('3');
     await until(page, 'the studio', () => document.body.classList.contains('studying'));
-    assert.ok(seen.size >= 2, [...seen].join());
+    assert.ok(lost.size >= 2, [...lost].join());
+  });
+
+  it('and while the first model is on its way, another scene can be chosen', async () => {
+    const page = await opened.browser.newPage({ viewport: { width: 200, height: 200 } });
+    let flame;
+    await page.route(/flame\.wisp$/, (route) => (flame = route));
+    await page.goto(`${opened.address}#leaves=5&detail=0.1`);
+    await seen('the flame is requested', () => flame !== undefined);
+    await page.click('[data-scene=leaves]');
+    await until(page, 'leaves', () => window.wisp.leaves?.count === 5);
+    await page.close();
   });
 });
 

@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { after, before, describe, it } from 'node:test';
-import { skip, temporaryFolder, until } from './browser.js';
+import { says, skip, temporaryFolder, until } from './browser.js';
 import { breath, hearing, hiss, room } from './sound.js';
 
 const folder = temporaryFolder();
@@ -124,6 +124,17 @@ describe('tuning', { skip }, () => {
     await page.focus('#stage');
     await page.keyboard.press('b');
     await until(page, 'it is off', () => window.wisp.hearing === 'off');
+    // The chosen one is unplugged: after that is said, the next press opens another.
+    await page.evaluate(() => {
+      const real = navigator.mediaDevices.getUserMedia, gone = () => Promise.reject(new DOMException('gone', 'NotFoundError'));
+      navigator.mediaDevices.getUserMedia = (wanted) => (wanted.audio.deviceId === undefined ? real(wanted) : gone());
+    });
+    await page.keyboard.press('b');
+    await says(page, '#notices', 'No microphone was found');
+    for (const state of ['listening', 'off']) {
+      await page.keyboard.press('b');
+      await until(page, state, (wanted) => window.wisp.hearing === wanted, state);
+    }
   });
 
   it('says that it did not hear a breath, and asks again', async () => {

@@ -84,7 +84,7 @@ export class Bank {
 
   /** @internal */
   constructor(private readonly native: Native, model: number, options: BankOptions, private readonly isChain: boolean) {
-    this.pointer = native.allocating(() => Bank.create(native, model, options));
+    this.pointer = at.madeFrom(native, 'bank', at.bankOptions, options, model);
     this.scratch = native.allocate(64);
     ({ capacity: this.capacity, inputs: this.inputs, outputs: this.outputs, polylinePoints: this.polylinePoints } = this.facts);
     this.rooms = {
@@ -94,14 +94,6 @@ export class Bank {
       sizes: new Room(native, this.capacity),
       rings: new Room(native, 6 * this.ringCount),
     };
-  }
-
-  private static create(native: Native, model: number, options: BankOptions): number {
-    return native.withRoom(at.bankOptions.size, (p) => {
-      native.functions.wisp_bank_default_options!(p);
-      at.putAt(native, p, at.bankOptions, options);
-      return native.made((made) => native.functions.wisp_bank_create!(model, p, made));
-    });
   }
 
   /** Number of living instances. */

@@ -36,8 +36,18 @@ export function valuesAt<F extends Fields>(native: Native, p: number, { fields }
   return values as Values<F>;
 }
 
+type Given<F extends Fields> = { [Name in keyof F]?: number | bigint | readonly number[] };
+
+/** Creates a bank (of a model) or a wind estimator with the given options, others by default. Returns its pointer. */
+export const madeFrom = <F extends Fields>(native: Native, kind: 'bank' | 'wind', options: Struct<F>, given: Given<F>, ...model: number[]): number =>
+  native.allocating(() => native.withRoom(options.size, (p) => {
+    native.functions[`wisp_${kind}_default_options`]!(p);
+    putAt(native, p, options, given);
+    return native.made((made) => native.functions[`wisp_${kind}_create`]!(...model, p, made));
+  }));
+
 /** Writes the given fields of a struct; those that are undefined stay. Vectors may have any length. */
-export function putAt<F extends Fields>({ data }: Native, p: number, { fields }: Struct<F>, given: { [Name in keyof F]?: number | bigint | readonly number[] }): void {
+export function putAt<F extends Fields>({ data }: Native, p: number, { fields }: Struct<F>, given: Given<F>): void {
   for (const name in fields) {
     const [at, kind] = fields[name]!;
     const value = given[name];

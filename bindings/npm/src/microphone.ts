@@ -76,18 +76,6 @@ function refusal(error: unknown): MicrophoneError {
 /** Turns off the browser's speech processing, which would suppress wind as noise. */
 const RAW = { echoCancellation: false, noiseSuppression: false, autoGainControl: false };
 
-async function askForSound(deviceId: string | undefined): Promise<MediaStream> {
-  if (!globalThis.navigator?.mediaDevices?.getUserMedia || typeof AudioWorkletNode === 'undefined') {
-    throw new MicrophoneError('unsupported', 'There is no microphone here: a page needs HTTPS or localhost for it.');
-  }
-  const audio: MediaTrackConstraints = { ...RAW, channelCount: 1, ...(deviceId ? { deviceId: { exact: deviceId } } : {}) };
-  try {
-    return await navigator.mediaDevices.getUserMedia({ audio, video: false });
-  } catch (error) {
-    throw refusal(error);
-  }
-}
-
 function settingsOf(track: MediaStreamTrack, context: AudioContext): MicrophoneSettings {
   const found = track.getSettings();
   return {
@@ -209,9 +197,11 @@ class OpenMicrophone {
 
   /**
    * Listens for 0.5 to 30 s for the requested sound; `onCalibrated` reports whether it was heard. Calibrate
-   * with both sounds in turn if a sensitive microphone turns soft breath into strong wind.
+   * with both sounds in turn if a sensitive microphone turns soft breath into strong wind. Throws a RangeError for
+   * another sound, or a time that is not a number; the microphone goes on.
    */
   calibrate(ask: WindAsk, seconds = 3): void {
+    if (!windAsks.includes(ask) || isNaN(seconds)) throw new RangeError(`A microphone is not calibrated by '${ask}' for ${seconds} seconds.`);
     this.tell({ type: 'calibrate', seconds, ask: windAsks.indexOf(ask) });
   }
 
@@ -286,16 +276,21 @@ export async function openMicrophone(wisp: Library, options: MicrophoneOptions =
 const closed = (): MicrophoneError => new MicrophoneError('lost', 'The microphone is closed.');
 
 /** Closes a microphone, and its audio context unless that is the caller's. */
-function release(stream: MediaStream, context: AudioContext | undefined, options: MicrophoneOptions): void {
-  for (const track of stream.getTracks()) track.stop();
+function release(stream: MediaStream | undefined, context: AudioContext | undefined, options: MicrophoneOptions): void {
+  for (const track of stream?.getTracks() ?? []) track.stop();
   if (options.context === undefined) void context?.close();
 }
 
 /** Opens a microphone, and returns what `use` makes of it; closes it if that fails. */
 async function openSound<T>(options: MicrophoneOptions, use: (stream: MediaStream, context: AudioContext) => T): Promise<T> {
-  const stream = await askForSound(options.deviceId);
   let { context } = options;
+  let stream: MediaStream | undefined;
   try {
+    if (!globalThis.navigator?.mediaDevices?.getUserMedia || typeof AudioWorkletNode === 'undefined') {
+      throw new MicrophoneError('unsupported', 'There is no microphone here: a page needs HTTPS or localhost for it.');
+    }
+    const chosen = options.deviceId ? { deviceId: { exact: options.deviceId } } : {};
+    stream = await navigator.mediaDevices.getUserMedia({ audio: { ...RAW, channelCount: 1, ...chosen }, video: false });
     context ??= new AudioContext({ latencyHint: 'interactive' });
     await context.audioWorklet.addModule(options.workletUrl ?? new URL('./worklet.js', import.meta.url));
     // Not awaited, as some browsers keep the promise pending until the next click or key.

@@ -53,10 +53,8 @@ async function compileResponse(response: Response): Promise<WebAssembly.Module> 
   if (!response.ok) {
     throw new WispError(Status.badData, `${response.url} could not be fetched: ${response.status} ${response.statusText}`);
   }
-  // Streaming requires the right content type; other servers' bytes are compiled after download.
-  if (response.headers.get('content-type')?.startsWith('application/wasm')) {
-    return WebAssembly.compileStreaming(response);
-  }
+  // Streaming requires this content type, without parameters; other servers' bytes are compiled after download.
+  if (response.headers.get('content-type') === 'application/wasm') return WebAssembly.compileStreaming(response);
   return WebAssembly.compile(await response.arrayBuffer());
 }
 
@@ -126,7 +124,8 @@ export class Native {
 
   /** Allocates memory in the module. Throws when there is none. */
   allocate(bytes: number): number {
-    const pointer = this.functions.malloc(Math.max(bytes, 8));
+    // Sizes of 4 GB and more would wrap around.
+    const pointer = bytes < 2 ** 32 ? this.functions.malloc(Math.max(bytes, 8)) : 0;
     if (pointer === 0) throw new WispError(Status.noMemory, `there is no memory for ${bytes} bytes`);
     return pointer >>> 0;
   }

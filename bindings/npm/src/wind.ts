@@ -15,7 +15,7 @@ export type WindCalibration = at.Values<typeof at.windCalibration.fields>;
 export const windAsks = ['breathe gently', 'blow hard'] as const;
 export type WindAsk = (typeof windAsks)[number];
 
-const samplesAtOnce = 4096;
+const samplesAtOnce = 3360; // a multiple of every number of channels, 1 to 8, so whole rows stay together
 const framesAtOnce = 64;
 
 /** Made by `Wisp.windLevel()`. Frames do not depend on the block size of the sound. */
@@ -27,18 +27,10 @@ export class WindLevel {
 
   /** @internal */
   constructor(private readonly native: Native, options: WindOptions) {
-    this.pointer = native.allocating(() => WindLevel.create(native, options));
+    this.pointer = at.madeFrom(native, 'wind', at.windOptions, options);
     this.samples = native.allocate(samplesAtOnce * 4);
     this.frames = native.allocate(framesAtOnce * at.windFrame.size);
     this.counts = native.allocate(64);
-  }
-
-  private static create(native: Native, options: WindOptions): number {
-    return native.withRoom(at.windOptions.size, (p) => {
-      native.functions.wisp_wind_default_options!(p);
-      at.putAt(native, p, at.windOptions, options);
-      return native.made((made) => native.functions.wisp_wind_create!(p, made));
-    });
   }
 
   /**
@@ -47,28 +39,20 @@ export class WindLevel {
    */
   feed(samples: Float32Array | Int16Array): WindFrame[] {
     this.living();
-    const frames: WindFrame[] = [];
-    // 840 is a multiple of every number of channels, 1 to 8, so whole rows stay together.
-    const most = Math.floor(samplesAtOnce / 840) * 840;
-    for (let from = 0; from < samples.length; from += most) this.feedPiece(samples.subarray(from, from + most), frames);
-    return frames;
-  }
-
-  private feedPiece(samples: Float32Array | Int16Array, frames: WindFrame[]): void {
-    const { native } = this;
+    const { native, counts } = this;
     const wide = samples instanceof Float32Array;
-    if (wide) native.floats(this.samples, samples.length).set(samples);
-    else new Int16Array(native.bytes.buffer, this.samples, samples.length).set(samples);
     const feed = native.functions[wide ? 'wisp_wind_feed' : 'wisp_wind_feed_int16']!;
-    const bytes = wide ? 4 : 2;
-    for (let taken = 0; taken < samples.length; ) {
-      const from = this.samples + taken * bytes;
-      const left = samples.length - taken;
-      native.check(feed(this.pointer, from, left, this.frames, framesAtOnce, this.counts, this.counts + 4));
-      taken += native.data.getUint32(this.counts, true);
-      const made = native.data.getUint32(this.counts + 4, true);
+    const frames: WindFrame[] = [];
+    // Each call says how many samples it has taken: fewer than were given where it completes many frames.
+    for (let from = 0; from < samples.length; from += native.data.getUint32(counts, true)) {
+      const piece = samples.subarray(from, from + samplesAtOnce);
+      if (wide) native.floats(this.samples, piece.length).set(piece);
+      else new Int16Array(native.bytes.buffer, this.samples, piece.length).set(piece);
+      native.check(feed(this.pointer, this.samples, piece.length, this.frames, framesAtOnce, counts, counts + 4));
+      const made = native.data.getUint32(counts + 4, true);
       for (let k = 0; k < made; ++k) frames.push(at.valuesAt(native, this.frames + k * at.windFrame.size, at.windFrame));
     }
+    return frames;
   }
 
   /** The latest frame; all zero before the first. */

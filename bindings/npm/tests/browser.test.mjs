@@ -7,20 +7,7 @@ import { after, before, describe, test } from 'node:test';
 
 import { executablePath, models, quiet, serveInstalled, skip, until, watched, wavOf } from './chromium.mjs';
 import { load } from '../dist/index.js';
-import { Chance, hashOfLife } from './lives.mjs';
-
-/** Writes a WAV file with two seconds of a room and two of blowing. */
-function writeBreath(path) {
-  const rate = 48000;
-  const samples = new Int16Array(4 * rate);
-  const chance = new Chance();
-  let slow = 0;
-  for (let k = 0; k < samples.length; ++k) {
-    slow += 0.05 * (chance.next() - slow);
-    samples[k] = (k < 2 * rate ? 10 : 32000) * slow + 10 * chance.next();
-  }
-  writeFileSync(path, wavOf(samples, rate));
-}
+import { gusts, hashOfLife } from './lives.mjs';
 
 describe('in Chromium', { skip }, () => {
   let pages, browser, listening;
@@ -29,7 +16,8 @@ describe('in Chromium', { skip }, () => {
     const { chromium } = await import('playwright-core');
     pages = await serveInstalled('plain', 'vite');
     const sound = join(pages.work, 'breath.wav');
-    writeBreath(sound);
+    const samples = [...gusts(4)].flatMap((block) => [...block]);
+    writeFileSync(sound, wavOf(Int16Array.from(samples, (sample) => 32767 * Math.max(-1, Math.min(1, sample))), 48000));
     const hears = ['--use-fake-device-for-media-stream', `--use-file-for-fake-audio-capture=${sound}`, '--autoplay-policy=no-user-gesture-required'];
     browser = await chromium.launch({ executablePath, args: quiet });
     listening = await chromium.launch({ executablePath, args: [...quiet, ...hears] });
@@ -78,7 +66,8 @@ describe('in Chromium', { skip }, () => {
       const { echoCancellation, noiseSuppression, autoGainControl } = opened.settings;
       assert.deepEqual([echoCancellation, noiseSuppression, autoGainControl], [false, false, false]);
       await until(page, 'page.strongest() > 0.3');
-      const known = await page.evaluate('page.calibration()');
+      await assert.rejects(page.evaluate("page.calibrate('blow hard', NaN)"), /RangeError/);
+      const known = await page.evaluate('page.calibration()'); // it is still open
       assert.ok(known.gustRms > 0);
       // An interruption, as by a telephone call, is reported; a key resumes the sound.
       await page.evaluate('AudioContext.prototype.resume = () => new Promise(() => {}), heardBy.suspend()');

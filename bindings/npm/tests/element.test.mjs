@@ -104,24 +104,25 @@ describe('elements in Chromium', { skip }, () => {
 
   test('taken out of the page it stands still, put back it goes on', async () => {
     const page = await open(plain);
-    await page.evaluate(`(() => { window.kept = document.getElementById('one'); kept.remove();
+    await page.evaluate(`(() => { window.kept = document.getElementById('one'); kept.wind.keys.held.add('Space'); kept.remove();
       window.frames = 0; const real = requestAnimationFrame; kept.watch = () => { frames += 1; }; })()`);
     await page.waitForTimeout(500);
-    assert.equal(await page.evaluate('frames'), 0);
+    assert.deepEqual(await page.evaluate('[frames, kept.wind.keys.held.size]'), [0, 0]);
     await page.evaluate('document.body.append(kept)');
     await until(page, 'frames > 2');
   });
 
-  test('after twenty others came and went, the one that stayed has its picture', async () => {
+  test('after twenty others came and went and freed their models, the one that stayed has its picture', async () => {
     const page = await open(plain);
     for (let k = 0; k < 20; ++k) {
       await page.evaluate(`document.body.append(window.passing = Object.assign(document.createElement('wisp-candle'), { id: 'passing' }))`);
       await until(page, lit('passing', 1));
       await page.evaluate('passing.remove()');
+      await until(page, 'passing.scene === null && passing.model === null');
     }
     assert.equal(await page.evaluate(`document.getElementById('one').shadowRoot.querySelector('canvas').getContext('webgl2').isContextLost()`), false);
     await page.evaluate(`document.body.append(passing)`);
-    await until(page, `!passing.shadowRoot.querySelector('canvas').getContext('webgl2').isContextLost()`);
+    await until(page, `!passing.shadowRoot.querySelector('canvas').getContext('webgl2').isContextLost() && ${lit('passing', 1)}`);
   });
 
   test('burns in a frame of another origin', async () => {
@@ -145,6 +146,8 @@ describe('elements in Chromium', { skip }, () => {
     await page.evaluate(`document.getElementById('two').scrollIntoView()`);
     await until(page, `document.getElementById('two').scene?.leaves().count === 20`);
     assert.match(await page.evaluate(`document.getElementById('two').shadowRoot.querySelector('canvas').ariaLabel`), /20 of them/);
+    await page.evaluate(`document.getElementById('two').removeAttribute('src')`);
+    await until(page, `/wisp-leaves needs src/.test(document.getElementById('two').shadowRoot.querySelector('p').textContent)`);
     assert.deepEqual(page.errors, []);
   });
 });

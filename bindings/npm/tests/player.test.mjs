@@ -36,8 +36,8 @@ test('it takes SIMD where the engine has it, and says so', async () => {
 
 test('it is made of bytes, of a module, or of a response', async () => {
   const bytes = readFileSync(new URL('../dist/wisp.wasm', import.meta.url));
-  const type = { headers: { 'content-type': 'application/wasm' } };
-  for (const wasm of [bytes, wisp.module, new Response(bytes), new Response(bytes, type)]) {
+  const typed = ['application/wasm', 'application/wasm; charset=utf-8'].map((type) => new Response(bytes, { headers: { 'content-type': type } }));
+  for (const wasm of [bytes, wisp.module, new Response(bytes), ...typed]) {
     assert.equal((await load({ wasm })).version, wisp.version);
   }
   await assert.rejects(load({ wasm: new Response('', { status: 404 }) }), wrong(Status.badData, /404/));
@@ -401,6 +401,9 @@ test('a bank for which there is no memory is told so, and the module goes on', a
   assert.throws(() => model.bank({ capacity: 2 ** 20 }), wrong(Status.noMemory, /no memory for a bank of \d+ bytes/));
   model.bank({ capacity: 1 }).free();
   model.free();
+  const wide = flames({ capacity: 2 ** 17, polylinePoints: 4096 });
+  assert.throws(() => wide.polylinesView(), wrong(Status.noMemory, /no memory for 4294967296 bytes/)); // which 32 bits wrap to 0
+  wide.free();
 });
 
 test('memory stays flat over many lives', () => {

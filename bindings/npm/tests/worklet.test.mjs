@@ -57,10 +57,29 @@ test('a server that renders pages can import the elements', async () => {
   assert.equal(typeof (await import('../dist/leaves/element.js')).WispLeaves, 'function');
 });
 
-test('a pause out of view does not count as a slow frame', async () => {
+/** A stage on a made canvas, whose context is `gl` and whose picture as a file is `gl.picture`. */
+async function stageOn(gl, context) {
   const { Stage } = await import('../dist/stage/stage.js');
-  const canvas = { addEventListener() {}, setAttribute() {}, getContext: () => null };
-  const stage = new Stage(canvas, { breath: () => 0, air: () => ({ right: 0, away: 0 }), touched() {}, context() {}, framed() {} }, false);
+  const canvas = { addEventListener() {}, setAttribute() {}, getContext: () => gl, getBoundingClientRect: () => ({ width: 1, height: 1 }), toBlob: (take) => take(gl.picture) };
+  return new Stage(canvas, { breath: () => 0, air: () => ({ right: 0, away: 0 }), touched() {}, context, framed() {} }, false);
+}
+
+test('pictures that are wanted together are all given, by the first frame that draws', async () => {
+  const gl = { isContextLost: () => false, picture: '' };
+  const stage = await stageOn(gl);
+  stage.detail = 1;
+  stage.show({ update() {}, describe: () => '', attach() {}, draw: () => gl.picture === 'drawn' });
+  const wanted = [stage.snapshot(), stage.snapshot()];
+  for (gl.picture of ['blank', 'drawn']) stage.frame(0.02, 20);
+  assert.deepEqual(await Promise.all(wanted), ['drawn', 'drawn']);
+});
+
+test('a context that comes back before there is a scene says so', async () => {
+  assert.equal(await new Promise((heard) => stageOn({}, heard).then((stage) => stage.regain())), 'back');
+});
+
+test('a pause out of view does not count as a slow frame', async () => {
+  const stage = await stageOn(null, () => {});
   stage.show({ update() {}, describe: () => '' });
   let now = 0;
   const frames = (first) => {

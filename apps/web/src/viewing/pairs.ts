@@ -2,6 +2,7 @@
 // shipped model; or parts of a visitor's film (made in the studio), played by the model learned from it.
 
 import type { Library, Model } from '@wisp/player';
+import { fetchShipped } from '../shipped.js';
 import type { Outlines } from '../studio/outlines.js';
 import { evenKnots, Spline } from '../studio/spline.js';
 
@@ -48,9 +49,7 @@ const shuffled = <T>(list: readonly T[]): T[] => list.map((one) => [Math.random(
 
 /** Pairs from the rig's films and a model that was not learned from them. */
 export async function rigPairs(wisp: Library, bytes: Uint8Array, many: number): Promise<Pair[]> {
-  const answer = await fetch('./models/filmed.json');
-  if (!answer.ok) throw new Error(`The films could not be fetched (${answer.status}).`);
-  const { rate, shown, before, clips } = (await answer.json()) as Record<'rate' | 'shown' | 'before', number> & { clips: { wind: number[]; outlines: number[][] }[] };
+  const { rate, shown, before, clips } = JSON.parse(new TextDecoder().decode(await fetchShipped('filmed.json'))) as Record<'rate' | 'shown' | 'before', number> & { clips: { wind: number[]; outlines: number[][] }[] };
   const model = wisp.model(bytes);
   const points = (clips[0]?.outlines[0]?.length ?? 0) / 2;
   const spline = new Spline(points, evenKnots(points), POINTS);

@@ -245,6 +245,8 @@ export class Ear {
   private fail(error: unknown): void {
     this.close();
     const trouble = error instanceof MicrophoneError ? error.trouble : 'failed';
+    // A chosen microphone that is not there: the next opening takes whichever there is.
+    if (trouble === 'none' && this.device !== undefined) [this.device, this.known, this.plain] = [undefined, null, null];
     this.app.notices.say(((this.app.overlay && IN_OVERLAY[trouble]) || WORDS[trouble]) + ELSE);
   }
 }

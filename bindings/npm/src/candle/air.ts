@@ -43,19 +43,17 @@ class Pair {
   now: Target;
   private next: Target;
 
-  constructor(gl: WebGL2RenderingContext) {
+  constructor(private readonly gl: WebGL2RenderingContext) {
     this.now = new Target(gl, { range: true });
     this.next = new Target(gl, { range: true });
   }
 
+  /** Resizes and clears both textures. */
   resize(width: number, height: number): void {
-    this.now.resize(width, height);
-    this.next.resize(width, height);
-  }
-
-  clear(gl: WebGL2RenderingContext): void {
+    const { gl } = this;
     gl.clearColor(0, 0, 0, 0);
     for (const target of [this.now, this.next]) {
+      target.resize(width, height);
       target.begin();
       gl.clear(gl.COLOR_BUFFER_BIT);
     }
@@ -82,7 +80,7 @@ export class Air {
   private aspect = 1;
   private readonly words: Words;
 
-  constructor(private readonly gl: WebGL2RenderingContext, private readonly quad: Quad) {
+  constructor(gl: WebGL2RenderingContext, private readonly quad: Quad) {
     this.flow = new Pair(gl);
     this.pressure = new Pair(gl);
     this.smoke = new Pair(gl);
@@ -139,7 +137,6 @@ export class Air {
     this.flow.resize(width, height);
     this.pressure.resize(width, height);
     this.smoke.resize(FINER * width, FINER * height);
-    for (const pair of [this.flow, this.pressure, this.smoke]) pair.clear(this.gl);
   }
 
   private set(name: keyof Air['programs'], seconds: number): Program {

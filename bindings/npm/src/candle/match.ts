@@ -28,14 +28,14 @@ export class Match {
   sinceOut = Infinity;
   private goalX = 0;
   private goalY = 0;
-  private errand: { left: number } | null = null;
+  private errand = 0; // remaining seconds of moving to a wick by itself and waiting there; 0: it does not
   /** remaining seconds of the strike; at 0 the match catches fire */
   private striking = 0;
   speedX = 0;
 
   /** Whether the match lies on the table. */
   get lying(): boolean {
-    return !this.held && this.errand === null && !this.burning;
+    return !this.held && this.errand === 0 && !this.burning;
   }
 
   /** Sets the resting place's x and depth, in front of the candles. */
@@ -43,7 +43,7 @@ export class Match {
     this.homeX = x;
     this.homeY = z > 2 ? 0.3 : 0.52;
     this.z = z;
-    if (!this.held && this.errand === null) {
+    if (!this.held && this.errand === 0) {
       this.x = this.goalX = x;
       this.y = this.goalY = this.homeY;
     }
@@ -57,7 +57,7 @@ export class Match {
 
   take(): void {
     this.held = true;
-    this.errand = null;
+    this.errand = 0;
     this.strike();
   }
 
@@ -67,7 +67,7 @@ export class Match {
 
   /** Moves the match to a wick by itself, not carried by the pointer. */
   send(x: number, y: number): void {
-    this.errand = { left: ERRAND + 0.5 };
+    this.errand = ERRAND + 0.5;
     this.strike();
     this.moveTo(x, y);
   }
@@ -79,13 +79,13 @@ export class Match {
 
   drop(): void {
     this.held = false;
-    this.errand = null;
+    this.errand = 0;
     this.moveTo(this.homeX, this.homeY);
   }
 
   /** Whether the match should burn: struck, and held or on its way to a wick. */
   get wanted(): boolean {
-    return (this.held || this.errand !== null) && this.striking === 0;
+    return (this.held || this.errand > 0) && this.striking === 0;
   }
 
   update(seconds: number): void {
@@ -100,14 +100,12 @@ export class Match {
       this.speedX = 0;
       return;
     }
-    const quick = this.held ? 22 : this.errand !== null ? 6 : 4;
+    const quick = this.held ? 22 : this.errand > 0 ? 6 : 4;
     const share = 1 - Math.exp(-quick * seconds);
     const before = this.x;
     this.x += (this.goalX - this.x) * share;
     this.y += (this.goalY - this.y) * share;
     this.speedX = (this.x - before) / seconds / this.unit;
-    if (this.errand === null) return;
-    this.errand.left -= seconds;
-    if (this.errand.left <= 0) this.drop();
+    if (this.errand > 0 && (this.errand -= seconds) <= 0) this.drop();
   }
 }

@@ -10,7 +10,7 @@ const USUAL = 200;
 
 /** Attributes in addition to those of every scene: `leaves`, 1 to 10000. Events: `load`, `error`. */
 export class WispLeaves extends SceneElement {
-  protected readonly usualModel = new URL('../models/leaf.wisp', import.meta.url);
+  protected readonly usualModel = null;
 
   protected sceneOf(model: Model, settings: SceneSettings): Promise<Scene> {
     if (model.view !== 'pose' && model.view !== 'position') throw new Error(`${model.name || 'This model'} has no pose to fall with.`);

@@ -10,6 +10,7 @@ import { leafMesh } from './mesh.js';
 import finishFragment from './shaders/finish.frag.js';
 import leafFragment from './shaders/leaf.frag.js';
 import leafVertex from './shaders/leaf.vert.js';
+import posed from './shaders/posed.glsl.js';
 import shadowFragment from './shaders/shadow.frag.js';
 import shadowVertex from './shaders/shadow.vert.js';
 import species from './shaders/species.glsl.js';
@@ -40,8 +41,8 @@ export class LeafRenderer {
     this.picture = new Target(gl, { range: false, samples: 4 });
     this.programs = {
       sky: new Program(gl, wholeVertex, noise + skyFragment),
-      leaf: new Program(gl, leafVertex, noise + species + leafFragment),
-      shadow: new Program(gl, shadowVertex, shadowFragment),
+      leaf: new Program(gl, posed + leafVertex, noise + species + leafFragment),
+      shadow: new Program(gl, posed + shadowVertex, shadowFragment),
       finish: new Program(gl, wholeVertex, noise + finishFragment),
     };
     this.instances = gl.createBuffer() as WebGLBuffer;

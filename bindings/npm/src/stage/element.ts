@@ -70,7 +70,11 @@ export abstract class SceneElement extends Base {
   /** numbers of the latest load, and of the latest opening of the microphone; results of earlier ones are dropped */
   private turn = 0;
   private asked = 0;
-  private seen: IntersectionObserver | null = null;
+  /** Scenes out of view are not drawn. */
+  private readonly seen = new IntersectionObserver((entries) => {
+    if (entries.at(-1)?.isIntersecting === true) this.stage?.loop.start();
+    else this.stage?.loop.stop();
+  });
   protected scene: Scene | null = null;
 
   constructor() {
@@ -91,8 +95,8 @@ export abstract class SceneElement extends Base {
     this.listenToKeys();
   }
 
-  /** Address of the model played when the attribute `src` is missing. */
-  protected abstract readonly usualModel: URL;
+  /** Address of the model played when the attribute `src` is missing; null: the package has none. */
+  protected abstract readonly usualModel: URL | null;
   protected abstract sceneOf(model: Model, settings: SceneSettings): Promise<Scene>;
   /** Number of candles or leaves. */
   protected abstract count(): number;
@@ -104,29 +108,23 @@ export abstract class SceneElement extends Base {
       breath: (seconds) => (this.getAttribute('wind') === 'none' ? 0 : this.wind.update(seconds, this.stage?.frames ?? 0)),
       air: () => (this.getAttribute('wind') === 'none' ? { right: 0, away: 0 } : this.wind.air),
       touched: () => undefined,
-      context: (state) => this.say((this.lacking = state === 'absent' ? 'This browser shows no WebGL 2.' : '')),
+      context: (state) => state === 'absent' && this.say((this.lacking = 'This browser shows no WebGL 2.')),
       framed: () => this.scene !== null && this.watch?.(),
     }, this.hasAttribute('clear'));
     this.stage.take();
     this.stage.loop.start();
-    // Scenes out of view are not drawn.
-    this.seen = new IntersectionObserver((entries) => {
-      if (entries.at(-1)?.isIntersecting === true) this.stage?.loop.start();
-      else this.stage?.loop.stop();
-    });
     this.seen.observe(this);
     this.showWind();
     if (this.scene === null) void this.play();
   }
 
   disconnectedCallback(): void {
-    this.seen?.disconnect();
+    this.seen.disconnect();
     this.stage?.loop.stop();
     this.closeMicrophone();
+    this.wind.keys.held.clear(); // their release is not reported
     // Browsers allow about sixteen contexts. An element moved within the page is connected again before the timeout.
-    setTimeout(() => {
-      if (!this.isConnected) this.stage?.giveBack();
-    });
+    setTimeout(() => this.isConnected || this.rest());
   }
 
   attributeChangedCallback(name: string, before: string | null, now: string | null): void {
@@ -140,6 +138,14 @@ export abstract class SceneElement extends Base {
   /** The scene's own action: lights candles, kicks leaves. */
   act(): void {
     this.scene?.act();
+  }
+
+  /** Gives context, scene and model back; an element put into a page again plays its model anew. */
+  private rest(): void {
+    this.turn += 1;
+    this.stage?.giveBack();
+    this.model?.free();
+    this.scene = this.model = null;
   }
 
   private settings(): SceneSettings {
@@ -157,16 +163,17 @@ export abstract class SceneElement extends Base {
     let model: Model | null = null;
     try {
       const url = src === null ? this.usualModel : new URL(src, document.baseURI);
+      if (url === null) throw new Error(`${this.localName} needs src, the address of a model.`);
       const [library, answer] = await Promise.all([shared(), fetch(url)]);
       if (!answer.ok) throw new Error(`${url.pathname.split('/').pop() ?? 'the model'} could not be fetched (${answer.status})`);
       model = library.model(await answer.arrayBuffer());
       const scene = await this.sceneOf(model, this.settings());
-      if (turn !== this.turn || this.stage === null) {
+      if (turn !== this.turn || !this.isConnected) {
         scene.dispose();
         model.free();
         return;
       }
-      this.stage.show(scene);
+      this.stage?.show(scene);
       this.model?.free();
       [this.scene, this.model] = [scene, model];
       this.say('');

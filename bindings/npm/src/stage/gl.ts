@@ -31,11 +31,7 @@ export class Program {
 
   /** Sets a uniform of 1 to 4 numbers; uniforms that the compiler removed are ignored. */
   set(name: string, ...values: number[]): this {
-    const at = this.at(name);
-    if (values.length === 1) this.gl.uniform1f(at, values[0] as number);
-    else if (values.length === 2) this.gl.uniform2fv(at, values);
-    else if (values.length === 3) this.gl.uniform3fv(at, values);
-    else this.gl.uniform4fv(at, values);
+    this.gl[`uniform${values.length as 1 | 2 | 3 | 4}fv`](this.at(name), values);
     return this;
   }
 

@@ -56,13 +56,12 @@ export class Stage {
   private scene: Scene | null = null;
   /** whether the pointer makes no wind */
   still = false;
-  private wanted: BlobCallback | null = null;
+  private readonly wanted: BlobCallback[] = [];
   readonly loop = new FrameLoop((passed, now) => this.frame(passed, now));
   private fade = 0;
   private adapted = 1;
   private lookedAt = 0;
   private framesSinceLook = 0;
-  private readonly cost: FrameCost = { update: 0, draw: 0 };
 
   constructor(
     readonly canvas: HTMLCanvasElement,
@@ -77,12 +76,12 @@ export class Stage {
     if (this.gl === null) events.context('absent');
   }
 
-  /** Shows a scene and disposes of the previous one. */
-  show(scene: Scene): void {
+  /** Shows a scene, or none, and disposes of the previous one. */
+  show(scene: Scene | null): void {
     this.scene?.dispose();
     this.scene = scene;
     this.fade = 0;
-    if (this.gl !== null && !this.gl.isContextLost()) scene.attach(this.gl);
+    if (this.gl !== null && !this.gl.isContextLost()) scene?.attach(this.gl);
     this.relabel();
   }
 
@@ -91,11 +90,12 @@ export class Stage {
     this.canvas.setAttribute('aria-label', this.scene?.describe() ?? '');
   }
 
-  /** Releases the context, as a browser has few of them; take() gets it back. */
+  /** Releases the scene and the context, as a browser has few of them; take() gets the context back. */
   giveBack(): void {
     this.given = true;
     this.loser ??= this.gl?.getExtension('WEBGL_lose_context') ?? null;
     this.loser?.loseContext();
+    this.show(null);
   }
 
   take(): void {
@@ -104,10 +104,10 @@ export class Stage {
     this.restore();
   }
 
-  /** The next picture as a file. */
+  /** The next picture as a file; waits while there is none. */
   snapshot(): Promise<Blob> {
     return new Promise((resolve, reject) => {
-      this.wanted = (blob) => (blob === null ? reject(new Error('The picture could not be made.')) : resolve(blob));
+      this.wanted.push((blob) => (blob === null ? reject(new Error('The picture could not be made.')) : resolve(blob)));
     });
   }
 
@@ -124,8 +124,7 @@ export class Stage {
   }
 
   private regain(): void {
-    if (this.gl === null || this.scene === null) return;
-    this.scene.attach(this.gl);
+    if (this.gl !== null) this.scene?.attach(this.gl);
     this.events.context('back');
   }
 
@@ -139,25 +138,21 @@ export class Stage {
     this.scene.update({ seconds, breath, air: this.events.air(), pointer: this.pointer.now });
     const between = performance.now();
     this.fade = Math.min(1, this.fade + passed / FADE_SECONDS);
-    if (this.gl !== null && !this.gl.isContextLost()) {
-      this.resize();
-      const { fade, clear } = this;
-      const drawn = this.scene.draw(this.canvas.width, this.canvas.height, { fade, footer: this.footer, clear, plain: this.detail === 0 && this.adapted < PLAIN });
-      // A scene fades in from its first picture.
-      if (!drawn) this.fade = 0;
-      this.shown = drawn;
-    }
-    if (this.wanted !== null) {
-      // A canvas keeps its picture only until this frame ends.
-      this.canvas.toBlob(this.wanted, 'image/png');
-      this.wanted = null;
-    }
-    this.cost.update = between - before;
-    this.cost.draw = performance.now() - between;
+    this.shown = this.gl !== null && !this.gl.isContextLost() && this.draw(this.scene);
+    // A scene fades in from its first picture.
+    if (!this.shown) this.fade = 0;
+    // A canvas keeps its picture only until this frame ends.
+    if (this.shown || this.gl === null) for (const take of this.wanted.splice(0)) this.canvas.toBlob(take, 'image/png');
     this.frames += 1;
-    this.events.framed(this.cost, seconds);
+    this.events.framed({ update: between - before, draw: performance.now() - between }, seconds);
     if (passed === 0 || passed > PAUSE) this.lookedAt = this.framesSinceLook = 0; // out of view before
     this.lookHowSmooth(now);
+  }
+
+  private draw(scene: Scene): boolean {
+    this.resize();
+    const { fade, footer, clear } = this;
+    return scene.draw(this.canvas.width, this.canvas.height, { fade, footer, clear, plain: this.detail === 0 && this.adapted < PLAIN });
   }
 
   private resize(): void {

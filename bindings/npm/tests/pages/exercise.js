@@ -51,6 +51,7 @@ export function offer({ load, openMicrophone }, worker) {
     },
 
     calibration: () => microphone.calibration(),
+    calibrate: (...how) => microphone.calibrate(...how),
     /** Opens the microphone again, as after a long interruption, after a guided calibration that heard `known`. */
     reopen(known) {
       microphone.hear({ type: 'calibrated', known, heard: true });

@@ -1,20 +1,11 @@
 export default /* glsl */ `
-layout(location = 0) in vec3 place;     // in halves of width and length
-layout(location = 1) in vec2 veins;     // across −1 … 1, along 0 … 1
-layout(location = 2) in vec4 where;     // metres; opacity
-layout(location = 3) in vec4 attitude;  // quaternion w, x, y, z
-uniform mat4 uMatrix;
-uniform vec2 uHalfSize;  // half width, half length, metres
+layout(location = 0) in vec3 place;  // in halves of width and length
+layout(location = 1) in vec2 veins;  // across −1 … 1, along 0 … 1
 uniform vec3 uEye;
 out vec2 vVeins;
 out vec3 vNormal;
 out vec3 vPlace;
 flat out vec4 vChance;
-
-vec3 turned(vec4 q, vec3 v) {
-  vec3 t = 2.0 * cross(q.yzw, v);
-  return v + q.x * t + cross(q.yzw, t);
-}
 
 vec4 chanceOf(float k) { return fract(sin(vec4(k * 12.9898, k * 78.233, k * 39.425, k * 93.989)) * 43758.5453); }
 

@@ -1,20 +1,11 @@
 export default /* glsl */ `
 // Soft shadow of a leaf: its outline projected from the sun, wider and fainter with height.
 layout(location = 0) in vec2 corner;
-layout(location = 2) in vec4 where;
-layout(location = 3) in vec4 attitude;
-uniform mat4 uMatrix;
-uniform vec2 uHalfSize;
 out vec2 vAt;
 out float vDark;
 out float vSoft;
 
 const vec3 kSun = vec3(-0.52, 0.62, 0.59);
-
-vec3 turned(vec4 q, vec3 v) {
-  vec3 t = 2.0 * cross(q.yzw, v);
-  return v + q.x * t + cross(q.yzw, t);
-}
 
 vec2 onGround(vec3 at) { return at.xy - kSun.xy * (at.z / kSun.z); }
 
