@@ -203,10 +203,7 @@ Result<void> write_file(const fs::path& path, std::string_view text) {
 PendingFile::PendingFile(fs::path pending, fs::path final_path)
     : pending_(std::move(pending)), final_(std::move(final_path)), listed_(list(pending_)) {}
 
-PendingFile::PendingFile(PendingFile&& other) noexcept
-    : pending_(std::exchange(other.pending_, {})),
-      final_(std::exchange(other.final_, {})),
-      listed_(std::exchange(other.listed_, -1)) {}
+PendingFile::PendingFile(PendingFile&& other) noexcept { *this = std::move(other); }
 
 PendingFile& PendingFile::operator=(PendingFile&& other) noexcept {
   if (this == &other) return *this;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace wisp {
@@ -24,10 +25,7 @@ T quantile(std::vector<T> values, double share) {
 /// Returns the middle sample, the upper one of an even number of samples; 0 if empty.
 template <class T>
 T median(std::vector<T> values) {
-  if (values.empty()) return T(0);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return quantile(std::move(values), 0.5);
 }
 
 /// Returns the values that are not NaN.

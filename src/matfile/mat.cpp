@@ -47,12 +47,12 @@ class File {
 
   std::vector<Name> names() const { return matfile::names_in_level5(bytes_); }
 
-  // Reads a variable. Its numbers count against the file's budget of unpacked bytes.
-  Found read(const Path& at) {
-    Found found = matfile::read_level5(bytes_, at, (max_bytes_ - unpacked_) / sizeof(double));
-    if (const auto* table = std::get_if<Table>(&found)) unpacked_ += table->numbers.size() * sizeof(double);
-    return found;
+  Found read(const Path& at) const {
+    return matfile::read_level5(bytes_, at, (max_bytes_ - unpacked_) / sizeof(double));
   }
+
+  // Counts numbers that are kept against the file's budget of unpacked bytes.
+  void keep(std::size_t numbers) { unpacked_ += numbers * sizeof(double); }
 
   const std::filesystem::path& path() const { return path_; }
 
@@ -143,6 +143,7 @@ class Reader {
     if (const auto* miss = std::get_if<Miss>(&found)) return at(name, words_of(*miss));
     auto& table = std::get<Table>(found);
     if (table.rows == 1) std::swap(table.rows, table.columns);
+    file_.keep(reference->column ? table.rows : table.numbers.size());
     if (!reference->column) return std::move(table);
     if (*reference->column < 1 || *reference->column > table.columns) {
       return at(name, "the variable has " + std::to_string(table.columns) + " columns");
@@ -154,10 +155,8 @@ class Reader {
   std::optional<double> scalar(const char* name) const {
     const Found found = file_.read({name});
     const auto* table = std::get_if<Table>(&found);
-    if (!table || table->numbers.size() != 1) return std::nullopt;
-    const double number = table->numbers.front();
-    if (!std::isfinite(number) || !(number > 0)) return std::nullopt;
-    return number;
+    const double number = table && table->numbers.size() == 1 ? table->numbers.front() : 0;
+    return std::isfinite(number) && number > 0 ? std::optional(number) : std::nullopt;
   }
 
   Error at(const std::string& name, const std::string& what) const {
@@ -172,19 +171,13 @@ class Reader {
   }
 
   std::string words_of(Miss miss) const {
-    switch (miss) {
-      case Miss::kNoVariable:
-        return "there is no such variable; the file has: " + listed(file_);
-      case Miss::kNoField:
-        return "there is no such field; the file has: " + listed(file_);
-      case Miss::kNotNumbers:
-        return "expected a real, full, numeric vector or matrix of two dimensions; the file has: " + listed(file_);
-      case Miss::kTooLarge:
-        return file_.budget();
-      case Miss::kDamaged:
-        break;
-    }
-    return "its data is damaged or cut short";
+    if (miss == Miss::kTooLarge) return file_.budget();
+    if (miss == Miss::kDamaged) return "its data is damaged or cut short";
+    const char* const found = miss == Miss::kNoVariable ? "there is no such variable"
+                              : miss == Miss::kNoField
+                                  ? "there is no such field"
+                                  : "expected a real, full, numeric vector or matrix of two dimensions";
+    return found + std::string("; the file has: ") + listed(file_);
   }
 
   File& file_;
@@ -196,7 +189,11 @@ Result<double> rate_by_time(const Reader& reader) {
     const auto table = reader.table(name);
     if (!table || table->numbers.size() != table->rows || table->rows < 2) continue;
     const std::vector<double>& times = table->numbers;
-    const auto step = csv::step_of(times, 0, 1);
+    // Times in single precision are even within its rounding errors.
+    const bool single = std::all_of(times.begin(), times.end(), [](double t) {
+      return std::abs(t) < 1e30 && static_cast<double>(static_cast<float>(t)) == t;
+    });
+    const auto step = csv::step_of(times, single ? 1.2e-7 * std::abs(times.back()) : 0, 1);
     for (std::size_t k = 0; k + 1 < times.size(); ++k) {
       if (step && std::abs(times[k + 1] - times[k] - step->step) <= step->tolerance) continue;
       return reader.at(name, "time does not go on evenly: " + number_text(times[k + 1], 12) + " after " +
@@ -216,15 +213,10 @@ Result<void> add_channels(const Reader& reader, const std::string& name, Role ro
                                " has " + std::to_string(recording.rows()));
   }
   for (std::size_t c = 0; c < table->columns; ++c) {
-    Channel channel;
-    channel.name = table->columns == 1 ? name : name + std::to_string(c + 1);
-    channel.role = role;
+    Channel channel{table->columns == 1 ? name : name + std::to_string(c + 1), "", role, {}};
     const auto first = table->numbers.begin() + static_cast<std::ptrdiff_t>(c * table->rows);
-    if (table->columns == 1) {
-      channel.samples = std::move(table->numbers);
-    } else {
-      channel.samples.assign(first, first + static_cast<std::ptrdiff_t>(table->rows));
-    }
+    if (table->columns == 1) std::swap(channel.samples, table->numbers);
+    if (table->columns > 1) channel.samples.assign(first, first + static_cast<std::ptrdiff_t>(table->rows));
     for (std::size_t t = 0; t < channel.samples.size(); ++t) {
       if (std::isinf(channel.samples[t])) return reader.at(name, "sample " + std::to_string(t + 1) + " is infinite");
     }

@@ -28,10 +28,20 @@ std::optional<double> parsed(std::string_view text) {
   return code == std::errc() ? std::optional(value) : std::nullopt;
 }
 
-bool same_word(std::string_view text, std::string_view lower) {
-  return text.size() == lower.size() && std::equal(text.begin(), text.end(), lower.begin(), [](char a, char b) {
-           return a == b || (a >= 'A' && a <= 'Z' && a + ('a' - 'A') == b);
-         });
+std::string lower(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return out;
+}
+
+bool is_utf8(std::string_view text) {
+  int left = 0;  // bytes of a character to come
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (((byte & 0xC0) == 0x80) != (left > 0)) return false;
+    left = left > 0 ? left - 1 : (byte >= 0xC0) + (byte >= 0xE0) + (byte >= 0xF0);
+  }
+  return left == 0;
 }
 
 }  // namespace
@@ -62,17 +72,30 @@ std::string text_of(const Cell& cell) {
   for (std::size_t at = text.find("\"\""); cell.quoted && at != text.npos; at = text.find("\"\"", at + 1)) {
     text.erase(at, 1);
   }
-  return text;
+  if (is_utf8(text)) return text;
+  std::string out;
+  for (const char c : text) {
+    if ((c & 0x80) != 0) out += static_cast<char>(0xC0 | (c >> 6 & 3));
+    out += (c & 0x80) != 0 ? static_cast<char>(c & 0xBF) : c;
+  }
+  return out;
+}
+
+std::string as_named(const std::string& name) {
+  if (name.find_first_of(",\"") == std::string::npos) return name;
+  std::string out = "\"";
+  for (char c : name) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
 }
 
 bool is_missing(const Cell& cell) {
-  static constexpr std::array<std::string_view, 8> kWords = {"nan",  "na",   "n/a",  "n.a.",
-                                                             "#n/a", "null", "none", "-nan"};
+  static constexpr std::array<std::string_view, 10> kWords = {"nan", "na",   "n/a",  "n.a.", "#n/a",
+                                                              "#nv", "#n/d", "null", "none", "-nan"};
   if (cell.text.empty()) return true;
   // Most cells are numbers; the words begin with one of these characters, so others are not compared.
   const char first = cell.text.front();
   if (first != 'n' && first != 'N' && first != '#' && first != '-') return false;
-  return std::any_of(kWords.begin(), kWords.end(), [&](auto word) { return same_word(cell.text, word); });
+  return std::find(kWords.begin(), kWords.end(), lower(cell.text)) != kWords.end();
 }
 
 std::optional<double> number_of(const Cell& cell, char separator) {
@@ -130,12 +153,6 @@ namespace {
 constexpr std::array<std::string_view, 8> kNames = {"t",       "time", "seconds", "timestamp",
                                                     "elapsed", "zeit", "date",    "datetime"};
 
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return out;
-}
-
 // Splits a name, in lower case, into the word and the unit in round brackets or after an underscore.
 std::pair<std::string, std::string> taken_apart(std::string_view name) {
   const std::string text = lower(trimmed(name));
@@ -148,12 +165,7 @@ std::pair<std::string, std::string> taken_apart(std::string_view name) {
   return {text, ""};
 }
 
-double rounded(double value, int digits) {
-  double out = 0;
-  const std::string text = number_text(value, digits);
-  read_number(text.data(), text.data() + text.size(), out);
-  return out;
-}
+double rounded(double value, int digits) { return parsed(number_text(value, digits)).value_or(0); }
 
 }  // namespace
 
@@ -166,6 +178,12 @@ bool names_time(std::string_view name) {
 std::string unit_in_time_name(std::string_view name) {
   auto [word, unit] = taken_apart(name);
   return unit.empty() && word == "seconds" ? "s" : unit;
+}
+
+double unit_since_1970(double time) {
+  for (const double unit : {1e-3, 1e-6, 1e-9})
+    if (time * unit >= 1e9 && time * unit < 1e10) return unit;
+  return 0;
 }
 
 std::optional<double> seconds_of(std::string_view unit) {
@@ -182,7 +200,11 @@ std::optional<double> seconds_of(std::string_view unit) {
   return std::nullopt;
 }
 
-std::optional<double> seconds_of_date(std::string_view text) {
+std::optional<double> seconds_of_date(std::string_view text, bool dotted) {
+  const std::size_t letter = std::min(text.find_first_of("AaPp"), text.size());
+  std::string half = lower(text.substr(letter));
+  std::erase_if(half, [](char c) { return c < 'a' || c > 'z'; });  // "p. m."
+  if (half == "am" || half == "pm") text = text.substr(0, text.find_last_of("0123456789", letter) + 1);
   std::array<double, 6> part{};  // numbers in written order: three of a date, three of the time of day
   std::array<char, 6> before{};  // the character before each
   std::size_t count = 0;
@@ -206,7 +228,12 @@ std::optional<double> seconds_of_date(std::string_view text) {
   double fraction = 0;
   read_number(decimals.data(), decimals.data() + decimals.size(), fraction);
   if (count == 2 && before[1] == ':' && marked) return 60 * part[0] + part[1] + fraction;  // Excel's mm:ss.0
-  if (count >= 2 && before[1] == ':') return 3600 * part[0] + 60 * part[1] + part[2] + fraction;
+  const bool points = dotted && count == 3 && before[1] == '.' && part[0] < 24 && part[1] < 60 && part[2] < 60;
+  const bool clock = points || (count >= 2 && before[1] == ':');
+  double& hour = part[clock ? 0 : 3];
+  if (half == "pm" && hour < 12) hour += 12;
+  if (half == "am" && hour == 12) hour = 0;
+  if (clock) return 3600 * part[0] + 60 * part[1] + part[2] + fraction;
   const bool dated =
       count >= 3 && before[1] == before[2] && std::string_view("-/.").find(before[1]) != std::string_view::npos;
   const bool year_first = part[0] > 31;
@@ -288,7 +315,7 @@ Result<Recording> resampled(const Recording& recording, const std::vector<double
   Recording out = slice(recording, 0, 0);
   out.rate_hz = 1 / step;
   const double length = std::floor((times.back() - times.front()) / step + kRounding);
-  if (!(length <= kMaxGrowth * static_cast<double>(times.size()))) {  // an infinite time makes it NaN
+  if (!(length <= kMaxGrowth * static_cast<double>(times.size()))) {
     return Error{recording.source +
                  ": time has gaps of 1000 times as many rows as there are; split the table there, or say --rate HZ or "
                  "--dt S"};
@@ -346,7 +373,8 @@ std::optional<TimeStep> step_of(const std::vector<double>& times, double resolut
 
 double resolution_of(std::string_view number) {
   if (number.find_first_of("eEdD") != number.npos) return 0;
-  const std::size_t mark = number.find_first_of(".,", number.find(':') + 1);  // points before a colon are a date's
+  const std::size_t second = number.find('.', number.find('.') + 1);  // points up to it are a date's, as before a colon
+  const std::size_t mark = number.find_first_of(".,", std::max(number.find(':') + 1, second + 1));
   return mark == number.npos ? 1 : std::pow(10.0, -static_cast<double>(number.size() - mark - 1));
 }
 

@@ -2,6 +2,7 @@
 // Cells of tables that other programs wrote: separators, quotes, numbers with a decimal point or comma. Also their time
 // column: the step between rows, and whether it is constant.
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -39,18 +40,11 @@ template <class Visit>
 void for_each_cell(std::string_view line, char separator, Visit visit) {
   if (separator == kBlanks) line = trimmed(line);
   for (;;) {
-    std::size_t begin = 0;
-    while (begin < line.size() && line[begin] == ' ') ++begin;
-    std::size_t end = std::string_view::npos;
-    if (begin < line.size() && line[begin] == '"') {
-      const std::size_t length = quoted_length(line.substr(begin), separator);
-      if (length > 0) end = begin + length < line.size() ? begin + length : std::string_view::npos;
-      if (length == 0) end = line.find(separator, begin);
-    } else if (separator == kBlanks) {
-      end = line.find_first_of(" \t", begin);
-    } else {
-      end = line.find(separator, begin);
-    }
+    const std::size_t begin = std::min(line.find_first_not_of(' '), line.size());
+    const bool quote = begin < line.size() && line[begin] == '"', blanks = separator == kBlanks && !quote;
+    const std::size_t length = quote ? quoted_length(line.substr(begin), separator) : 0;
+    std::size_t end = blanks ? line.find_first_of(" \t", begin) : line.find(separator, begin + length);
+    if (length > 0 && begin + length < line.size()) end = begin + length;
     visit(cell_of(line.substr(0, end)));
     if (end == std::string_view::npos) return;
     line.remove_prefix(end + 1);
@@ -58,8 +52,12 @@ void for_each_cell(std::string_view line, char separator, Visit visit) {
   }
 }
 
-/// Returns a cell's text; in a quoted cell each doubled quote becomes one.
+/// Returns a cell's text in UTF-8; in a quoted cell each doubled quote becomes one. Text that is not UTF-8 is taken as
+/// Latin 1, as Excel writes CSV in western Europe.
 std::string text_of(const Cell& cell);
+
+/// Returns a name as it is written between commas: in quotes, its own doubled, if it has a comma or a quote.
+std::string as_named(const std::string& name);
 
 /// Returns whether a cell means a missing sample: empty, NaN, NA and the like.
 bool is_missing(const Cell& cell);
@@ -79,9 +77,6 @@ struct PlainNumber {
 /// Parses the decimal number at the beginning of a text.
 PlainNumber plain_number(std::string_view text);
 
-/// Returns whether a numeric cell has a decimal comma.
-inline bool has_comma(const Cell& cell) { return cell.text.find(',') != std::string_view::npos; }
-
 /// Returns whether a column's name denotes time: t, time, seconds, timestamp, elapsed, zeit, date or datetime, in any
 /// case, with or without a unit after it (`t_ms`, `Time (s)`).
 bool names_time(std::string_view name);
@@ -89,13 +84,16 @@ bool names_time(std::string_view name);
 /// Returns the unit in the name of a time column, s for `seconds`; empty if it has none.
 std::string unit_in_time_name(std::string_view name);
 
+/// Returns the unit, in seconds, of a time that counts ms, µs or ns since 1970, between 2001 and 2286; 0 for others.
+double unit_since_1970(double time);
+
 /// Returns the seconds per unit (s, ms, us, min, h and their words); nothing for an unknown one.
 std::optional<double> seconds_of(std::string_view unit);
 
 /// Returns the seconds since 1970 of a date with or without a time of day, such as 2024-01-31 13:05:00.25,
 /// 2024/01/31T13:05Z or 31.01.2024, or since midnight of a time of day alone, in which 05:00.5 are minutes and seconds;
-/// nothing for other text. The decimal mark is a point or a comma.
-std::optional<double> seconds_of_date(std::string_view text);
+/// nothing for other text. The decimal mark is a point or a comma; AM or PM may follow. `dotted`: 13.05.59 is no date.
+std::optional<double> seconds_of_date(std::string_view text, bool dotted = true);
 
 /// Resamples rows of one episode, recorded at `times` in seconds, to an even step: the mean of the steps near the
 /// median, rounded by at most 1 %. Interpolates linearly, or repeats the last sample of a channel that moves in steps.

@@ -17,12 +17,21 @@ struct Shape {
   std::size_t filled = 0;  // number of cells before the empty ones at the end
   bool numbers = true;     // all cells are numbers, dates, times of day or missing
   bool any_number = false;
+  bool quoted = true;     // all cells are in quotes
+  bool labelled = false;  // the first cell is
 };
+
+std::vector<Cell> cells_of(std::string_view line, char separator) {
+  std::vector<Cell> cells;
+  for_each_cell(line, separator, [&](const Cell& cell) { cells.push_back(cell); });
+  return cells;
+}
 
 Shape shape_of(std::string_view line, char separator) {
   Shape shape;
   for_each_cell(line, separator, [&](const Cell& cell) {
-    ++shape.cells;
+    if (shape.cells++ == 0) shape.labelled = cell.quoted;
+    shape.quoted &= cell.quoted;
     if (!cell.text.empty()) shape.filled = shape.cells;
     const bool number = number_of(cell, separator).has_value();
     shape.any_number |= number;
@@ -31,9 +40,14 @@ Shape shape_of(std::string_view line, char separator) {
   return shape;
 }
 
+// Returns whether a row begins with its name, for which R's write.table() writes no name of a column.
+bool is_named(const Shape& names, const Shape& row) {
+  return names.quoted && row.labelled && !row.quoted && row.filled == names.filled + 1;
+}
+
 // Returns whether a row has as many cells as names; separators at its end do not count.
 bool fits(const Shape& names, const Shape& row) {
-  return names.filled >= 2 && row.cells >= names.filled && row.filled <= names.filled;
+  return is_named(names, row) || (names.filled >= 2 && row.cells >= names.filled && row.filled <= names.filled);
 }
 
 // Detects the cell separator: a tab, a semicolon, a comma or blanks. `lines`: the first lines, without comments.
@@ -41,7 +55,8 @@ char separator_of(const std::vector<std::string>& lines) {
   const std::string_view names = lines.front(), row = lines.back();
   for (char candidate : {'\t', ';', ',', kBlanks}) {
     const Shape shape = shape_of(row, candidate);
-    if (shape.numbers && shape.any_number && fits(shape_of(names, candidate), shape)) return candidate;
+    if ((shape.numbers || shape.labelled) && shape.any_number && fits(shape_of(names, candidate), shape))
+      return candidate;
   }
   for (char candidate : {'\t', ';', ','}) {
     if (fits(shape_of(names, candidate), shape_of(row, candidate))) return candidate;
@@ -50,12 +65,27 @@ char separator_of(const std::vector<std::string>& lines) {
     if (shape_of(names, candidate).cells >= 2) return candidate;
   }
   // The table has one column: a comma in its numbers is a decimal mark, so the separator must be another character.
-  return shape_of(row, ';').numbers && has_comma({row, false}) ? ';' : ',';
+  return shape_of(row, ';').numbers && row.find(',') != row.npos ? ';' : ',';
 }
 
-bool is_row(std::string_view line, char separator) {
-  const Shape shape = shape_of(line, separator);
-  return shape.numbers && shape.any_number;
+// Returns whether a line with text is a row: its cells are numbers, dates and text where the next line's are, and one
+// is a date, or text that comes again below it. Names are neither.
+bool is_row_with_text(std::string_view line, const std::vector<Lines::Line>& below, char separator) {
+  const auto kind = [&](const Cell& cell) {
+    return number_of(cell, separator) ? 'n' : seconds_of_date(cell.text) ? 'd' : 't';
+  };
+  const std::vector<Cell> cells = cells_of(line, separator);
+  bool row = false;
+  for (std::size_t b = 0; b < below.size(); ++b) {
+    const std::vector<Cell> others = cells_of(below[b].text, separator);
+    for (std::size_t k = 0; k < std::min(cells.size(), others.size()); ++k) {
+      if (is_missing(cells[k]) || is_missing(others[k])) continue;
+      const char own = kind(cells[k]);
+      if (b == 0 && own != kind(others[k])) return false;
+      row |= own == 'd' || (own == 't' && cells[k].text == others[k].text);
+    }
+  }
+  return row;
 }
 
 // Returns whether a line below the names states only units: no numbers, though the next row has some.
@@ -77,7 +107,7 @@ std::vector<std::string> units_in(std::string_view line, char separator) {
     const bool bracketed = unit.size() >= 2 &&
                            ((unit.front() == '[' && unit.back() == ']') || (unit.front() == '(' && unit.back() == ')'));
     if (bracketed) unit = unit.substr(1, unit.size() - 2);
-    units.emplace_back(unit == "-" ? "1" : unit);
+    units.push_back(unit == "-" ? "1" : text_of({unit, cell.quoted}));
   });
   return units;
 }
@@ -96,12 +126,6 @@ namespace {
 
 constexpr std::size_t kLookedAt = 3;  // lines from which the format is detected: names, units, a row
 constexpr std::size_t kTimed = 1000;  // rows from which the time step is detected
-
-std::vector<csv::Cell> cells_of(std::string_view line, char separator) {
-  std::vector<csv::Cell> cells;
-  csv::for_each_cell(line, separator, [&](const csv::Cell& cell) { cells.push_back(cell); });
-  return cells;
-}
 
 struct ColumnName {
   std::string role;
@@ -148,21 +172,13 @@ std::optional<Role> role_of(const ColumnName& column, const CsvOptions& options)
   return std::nullopt;
 }
 
-// Formats a name for --inputs: if it contains a comma it is quoted, with its own quotes doubled.
-std::string as_named(const std::string& name) {
-  if (name.find(',') == std::string::npos && name.front() != '"') return name;
-  std::string text = "\"";
-  for (char c : name) text += c == '"' ? "\"\"" : std::string(1, c);
-  return text + "\"";
-}
-
 // Returns whether a step between whole numbers is typical of milliseconds. Multiples of 15 are typical of seconds.
 bool counts_milliseconds(double step) { return step >= 2 && step <= 1000 && std::fmod(step, 15) != 0; }
 
 std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t kMax = 40;
   std::string text;
-  for (std::size_t k = 0; k < std::min(names.size(), kMax); ++k) text += (k == 0 ? "" : ", ") + as_named(names[k]);
+  for (std::size_t k = 0; k < std::min(names.size(), kMax); ++k) text += (k == 0 ? "" : ", ") + csv::as_named(names[k]);
   return names.size() > kMax ? text + " and " + std::to_string(names.size() - kMax) + " more" : text;
 }
 
@@ -190,7 +206,7 @@ Result<void> CsvReader::State::read_rate(const CsvOptions& options) {
 
 Result<void> CsvReader::State::read_attribute() {
   std::string_view line = csv::trimmed(csv::trimmed(lines.text()).substr(1));
-  while (line.ends_with(',')) line.remove_suffix(1);  // a spreadsheet gives all lines as many cells
+  line = line.substr(0, line.find_last_not_of(",;\t ") + 1);  // a spreadsheet gives all lines as many cells
   const std::size_t space = line.find_first_of(" \t");
   const std::string key(line.substr(0, space));
   const std::string value(space == std::string_view::npos ? "" : csv::trimmed(line.substr(space)));
@@ -230,20 +246,25 @@ Result<void> CsvReader::State::read_attributes() {
 
 // Returns the names of all columns, from the options or from lines.text(). That line is consumed unless it has numbers.
 Result<std::vector<std::string>> CsvReader::State::read_names(const CsvOptions& options) {
-  const auto ahead = lines.look_ahead(kLookedAt - 1);
+  auto ahead = lines.look_ahead(kLookedAt - 1);
   if (!ahead) return ahead.error();
   std::vector<std::string> first{std::string(lines.text())};
   for (const auto& line : *ahead) first.push_back(line.text);
-  if (own_form) separator = ',';
-  if (separator == '\0') separator = csv::separator_of(first);
-  const std::vector<csv::Cell> cells = cells_of(lines.text(), separator);
+  if (separator == '\0' || own_form) separator = csv::separator_of(first);
+  if (own_form && lines.text().find(separator) == std::string_view::npos) separator = ',';
+  const std::vector<csv::Cell> cells = csv::cells_of(lines.text(), separator);
   std::vector<std::string> names;
-  names.reserve(cells.size());
   for (const csv::Cell& cell : cells) names.push_back(csv::text_of(cell));
   while (names.size() > 1 && names.back().empty()) names.pop_back();
-  const bool numbers = csv::is_row(lines.text(), separator);
+  const csv::Shape shape = csv::shape_of(lines.text(), separator);
+  bool numbers = shape.numbers && shape.any_number;
+  if (!numbers && shape.any_number && !own_form) {
+    if (ahead = lines.look_ahead(kTimed); !ahead) return ahead.error();
+    numbers = csv::is_row_with_text(lines.text(), *ahead, separator);
+  }
+  if (!own_form && csv::is_named(shape, csv::shape_of(first.back(), separator))) names.insert(names.begin(), "");
   if (!options.columns.empty()) {
-    if (options.columns.size() < names.size() || options.columns.size() > cells.size()) {
+    if (options.columns.size() < names.size() || options.columns.size() > std::max(cells.size(), names.size())) {
       return lines.at_row("has " + std::to_string(names.size()) + " columns, --columns names " +
                           std::to_string(options.columns.size()) + "; name all of them, in their order");
     }
@@ -316,6 +337,7 @@ void CsvReader::State::find_time(const std::vector<std::string>& names, const st
     const ColumnName column = split_name(names[k]);
     if ((time && !still[time->place]) || !column.role.empty() || !csv::names_time(column.name)) continue;
     time = Time{k, column.name, column.unit.empty() ? csv::unit_in_time_name(column.name) : column.unit};
+    time->dotted = column.name.find_first_of("dD") != 0;  // under "date", 13.05.59 is one
   }
 }
 
@@ -342,13 +364,14 @@ Result<void> CsvReader::State::read_columns(const CsvOptions& options) {
   if (!names) return names.error();
   const auto ahead = lines.look_ahead(kLookedAt);  // units and two rows, or rows
   if (!ahead) return ahead.error();
-  const auto first = cells_of(ahead->size() < 2 ? std::string_view() : (*ahead)[ahead->size() - 2].text, separator);
-  const auto last = cells_of(ahead->empty() ? std::string_view() : ahead->back().text, separator);
+  const auto first =
+      csv::cells_of(ahead->size() < 2 ? std::string_view() : (*ahead)[ahead->size() - 2].text, separator);
+  const auto last = csv::cells_of(ahead->empty() ? std::string_view() : ahead->back().text, separator);
   std::vector<bool> still(names->size());  // columns with equal cells in both lines
   for (std::size_t k = 0; k < names->size(); ++k) {
     still[k] = k < std::min(first.size(), last.size()) && first[k].text == last[k].text;
-    const bool text = k < last.size() && !csv::is_missing(last[k]) && !csv::number_of(last[k], separator) &&
-                      !csv::names_time((*names)[k]);
+    const bool text = !(*names)[k].empty() && k < last.size() && !csv::is_missing(last[k]) &&
+                      !csv::number_of(last[k], separator) && !csv::names_time((*names)[k]);
     if (options.every_column && text && !own_form) {
       columns.push_back({});
       header.attributes.push_back({std::string(kNotNumbers), (*names)[k]});
@@ -368,12 +391,17 @@ Result<void> CsvReader::State::learn_step() {
   std::vector<double> found;
   double resolution = 1;
   for (const auto& line : *ahead) {
-    const std::vector<csv::Cell> cells = cells_of(line.text, separator);
+    const std::vector<csv::Cell> cells = csv::cells_of(line.text, separator);
     const auto now = time->place < cells.size() ? time_in(cells[time->place]) : std::nullopt;
-    if (!now || !std::isfinite(*now)) break;
+    if (!now) break;
     found.push_back(*now);
     resolution = std::min(resolution, csv::resolution_of(cells[time->place].text));
+    if (time->dotted && time->of_day < 0) {  // one of the cells is a date, so all are
+      time->dotted = false, time->midnight = 0;
+      return learn_step();
+    }
   }
+  time->of_day = time->midnight = 0;
   const std::string column = "column " + csv::shown(time->name);
   const auto seconds = time->unit.empty() ? 1 : csv::seconds_of(time->unit);
   const std::string instead = "; say --rate HZ or --dt S instead";
@@ -383,15 +411,21 @@ Result<void> CsvReader::State::learn_step() {
     return lines.at_row(column + " is no number of seconds" + instead, ahead->front().row);
   }
   if (found.size() < 2) return {};
-  time->seconds = *seconds;
-  const auto step = csv::step_of(found, resolution, *seconds);
+  const double epoch = time->unit.empty() && !time->dated ? csv::unit_since_1970(found.front()) : 0;
+  time->seconds = epoch > 0 ? epoch : *seconds;
+  const auto step = csv::step_of(found, resolution, time->seconds);
   if (!step) {
     return lines.at_row(column + " does not go on: " + number_text(found[1], 12) + " after " +
                             number_text(found[0], 12) + "; sort the rows by time, or say --rate HZ or --dt S",
                         (*ahead)[1].row);
   }
-  if (time->unit.empty() && step->step == 1 && !time->dated) return {};  // the column counts rows
-  if (time->unit.empty() && !time->dated && !(resolution < 1) && counts_milliseconds(step->step)) {
+  const bool bare = time->unit.empty() && !time->dated && epoch == 0;
+  if (bare && step->step == 1) return {};  // the column counts rows
+  header.rate_note.text =
+      "from " + column + ", in steps of " + number_text(step->step, 6) + " " + (time->unit.empty() ? "s" : time->unit);
+  if (epoch > 0) {
+    header.rate_note = {column + " has no unit: taken as steps of " + number_text(epoch) + " s since 1970", true};
+  } else if (bare && !(resolution < 1) && counts_milliseconds(step->step)) {
     time->seconds = 1e-3;
     header.rate_note = {
         column + " has no unit and goes on by whole steps of " + number_text(step->step) + ": taken as milliseconds",
@@ -400,20 +434,23 @@ Result<void> CsvReader::State::learn_step() {
   time->step = step->step;
   time->tolerance = step->tolerance;
   header.rate_hz = 1 / (step->step * time->seconds);
-  if (header.rate_note.text.empty()) {
-    header.rate_note.text = "from " + column + ", in steps of " + number_text(step->step, 6) + " " +
-                            (time->unit.empty() ? "s" : time->unit);
-  }
   return {};
 }
 
-// Parses a number, or the seconds of a date or time of day, which have no other unit.
+// Parses a finite number, or the seconds of a date or time of day, which have no other unit. A time of day that falls
+// back by more than half a day, or half an hour if it has no hours, is past midnight, or the next hour.
 std::optional<double> CsvReader::State::time_in(const csv::Cell& cell) {
   const auto number = csv::number_of(cell, separator);
-  if (number) return number;
-  const auto seconds = csv::seconds_of_date(csv::trimmed(cell.text));
-  if (seconds) time->dated = true, time->unit.clear();
-  return seconds;
+  if (number) return std::isfinite(*number) ? number : std::nullopt;
+  const auto seconds = csv::seconds_of_date(csv::trimmed(cell.text), time->dotted);
+  if (!seconds) return std::nullopt;
+  time->dated = true, time->unit.clear();
+  const bool date = *seconds < 0 || *seconds >= 86400;
+  const bool hours = std::count(cell.text.begin(), cell.text.end(), ':') != 1;
+  const double round = hours || cell.text.find_first_of(".,") == cell.text.npos ? 86400 : 3600;
+  if (!date && *seconds < time->of_day - round / 2) time->midnight += round;
+  time->of_day = date ? -1 : *seconds;
+  return *seconds + time->midnight;
 }
 
 }  // namespace wisp

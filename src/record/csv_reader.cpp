@@ -41,8 +41,6 @@ bool is_comment(std::string_view line) {
   return text == "#" || text.substr(0, 2) == "# " || text.substr(0, 1) == "%";  // #N/A and #DIV/0! are cells
 }
 
-bool is_utf16(std::string_view line) { return line.substr(0, 2) == "\xff\xfe" || line.substr(0, 2) == "\xfe\xff"; }
-
 }  // namespace
 
 std::string shown(std::string_view text) {
@@ -101,9 +99,11 @@ Result<bool> Lines::next() {
     if (row_ == 1 && text().starts_with("\xef\xbb\xbf")) begin_ += 3, length_ -= 3;
     const std::string_view line = text();
     if (!plain_ && std::any_of(line.begin(), line.end(), is_control)) {
-      if (row_ == 1 && is_utf16(line)) return at_row("is UTF-16; save it as UTF-8 (Excel: \"CSV UTF-8\")");
+      if (row_ == 1 && (line.starts_with("\xff\xfe") || line.starts_with("\xfe\xff")))
+        return at_row("is UTF-16; save it as UTF-8 (Excel: \"CSV UTF-8\")");
       return at_row("holds bytes that are not text; expected a CSV file");
     }
+    if (pass_empty_rows_ && line.find_first_not_of(" \t\r\",;") == std::string_view::npos) continue;
     const bool row =
         !trimmed(line).empty() || std::cmp_greater_equal(std::count(line.begin(), line.end(), '\t'), blank_row_);
     if (row && !(pass_comments_ && is_comment(line))) return true;
@@ -134,11 +134,11 @@ namespace {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
-// Returns whether text has one to three digits, a comma and three digits: thousands, or a number with three decimals.
+// Returns whether text has one to three digits, a mark and three digits: thousands, or a number with three decimals.
 bool may_be_thousands(std::string_view text) {
   if (!text.empty() && (text.front() == '-' || text.front() == '+')) text.remove_prefix(1);
-  const std::size_t comma = text.find(',');
-  return comma >= 1 && comma <= 3 && text.size() == comma + 4 && text.front() != '0';
+  const std::size_t mark = text.find_first_of(".,");
+  return mark >= 1 && mark <= 3 && text.size() == mark + 4 && text.front() != '0';
 }
 
 }  // namespace
@@ -155,6 +155,7 @@ Result<CsvReader> CsvReader::open(std::istream& stream, std::string_view name, c
   if (auto ok = state->read_columns(options); !ok) return ok.error();
   if (auto ok = state->read_rate(options); !ok) return ok.error();
   const std::size_t count = state->columns.size();
+  if (state->time && state->time->step > 0) state->lines.pass_empty_rows();
   if (state->separator == '\t' && !state->time && count > 1) state->lines.take_blank_rows(count - 1);
   state->marks.resize(count);
   using Kind = State::Column::Kind;
@@ -189,7 +190,7 @@ Result<void> CsvReader::State::check_time(std::optional<double> now, std::string
 
 Result<std::size_t> CsvReader::read(Recording& recording, std::size_t max_rows) {
   std::size_t count = 0;
-  while (count < max_rows) {
+  for (; count < max_rows; ++count) {
     const auto more = state_->lines.next();
     if (!more) return more.error();
     if (!*more) {
@@ -197,18 +198,16 @@ Result<std::size_t> CsvReader::read(Recording& recording, std::size_t max_rows) 
       break;
     }
     if (auto ok = state_->add_row(recording); !ok) return ok.error();
-    ++count;
   }
   return count;
 }
 
 Result<std::size_t> CsvReader::skip(std::size_t max_rows) {
   std::size_t count = 0;
-  while (count < max_rows) {
+  for (; count < max_rows; ++count) {
     const auto more = state_->lines.next();
     if (!more) return more.error();
     if (!*more) break;
-    ++count;
   }
   if (auto& time = state_->time) time->before.reset();
   return count;
@@ -228,6 +227,7 @@ bool CsvReader::State::take_plain_row(Recording& recording, double& seconds) {
     const bool over = last ? at == end : at != end && *at == separator;
     const bool marked = columns[k].kind == Column::Kind::kSkip || number.point || number.length < 3;
     if (number.length == 0 || !over || !(marked || marks[k].hundred > 0)) return false;
+    if (number.point && separator == ';' && !decimals) return false;
     points |= number.point;
     row[k] = number.value;
     at += last ? 0 : 1;
@@ -304,14 +304,17 @@ Result<void> CsvReader::State::add_cell(Recording& recording, const Column& colu
   return {};
 }
 
-// Notes which decimal marks a number has, for check_thousands(). Error: the table has both decimal commas and points.
+// Notes which decimal marks a number has, for check_thousands(); between semicolons points too may separate thousands.
+// Error: the table has both decimal commas and points.
 Result<void> CsvReader::State::check_mark(const Cell& cell, std::size_t place) {
-  const bool comma = csv::has_comma(cell), point = cell.text.find('.') != std::string_view::npos;
+  const bool comma = cell.text.find(',') != std::string_view::npos,
+             point = cell.text.find('.') != std::string_view::npos;
   commas |= comma;
   points |= point;
   Marks& mark = marks[place];
-  if (comma && !may_be_thousands(cell.text)) decimals = true;
-  if (comma && mark.thousand == 0) mark.thousand = lines.row();
+  const bool either = comma || (point && separator == ';');
+  if (either && !may_be_thousands(cell.text)) decimals = true;
+  if (either && mark.thousand == 0) mark.thousand = lines.row();
   if (!comma && !point && mark.hundred == 0 && cell.text.size() >= 3 &&
       std::isdigit(static_cast<unsigned char>(cell.text.back())) != 0) {
     mark.hundred = lines.row();
@@ -321,12 +324,12 @@ Result<void> CsvReader::State::check_mark(const Cell& cell, std::size_t place) {
                       (comma ? "point" : "comma") + "; write all numbers in one way, without separators of thousands");
 }
 
-// Error: a column has both 987 and 1,012, and no comma in the table is certainly a decimal mark: 1,012 is ambiguous.
+// Error: a column has both 987 and 1,012, and no mark in the table is certainly a decimal one: 1,012 is ambiguous.
 Result<void> CsvReader::State::check_thousands() const {
   for (std::size_t k = 0; k < marks.size() && !decimals; ++k) {
     if (marks[k].thousand == 0 || marks[k].hundred == 0) continue;
-    return lines.at_row("column " + std::to_string(k + 1) + " has numbers such as 1,012 and, in row " +
-                            std::to_string(marks[k].hundred) +
+    return lines.at_row("column " + std::to_string(k + 1) + " has numbers such as " + (commas ? "1,012" : "1.012") +
+                            " and, in row " + std::to_string(marks[k].hundred) +
                             ", whole ones of three digits and more: are they thousands or decimals? Write all numbers "
                             "without separators of thousands",
                         marks[k].thousand);

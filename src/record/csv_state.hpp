@@ -42,6 +42,9 @@ class Lines {
   /// Makes next() skip comment lines (#, "# …" or %…) from here on.
   void pass_comments() { pass_comments_ = true; }
 
+  /// Makes next() skip lines without anything but separators from here on: spreadsheets write them below a table.
+  void pass_empty_rows() { pass_empty_rows_ = true; }
+
   /// Makes blank lines with at least `tabs` tabs rows of missing samples from here on.
   void take_blank_rows(std::size_t tabs) { blank_row_ = tabs; }
 
@@ -63,7 +66,7 @@ class Lines {
   std::size_t row_ = 0;
   bool over_ = false;  // the stream has ended
   bool plain_ = true;  // so far only text bytes, and no CR without LF
-  bool pass_comments_ = false;
+  bool pass_comments_ = false, pass_empty_rows_ = false;
   std::size_t blank_row_ = std::string::npos;  // minimum number of tabs in a blank line that is a row
 };
 
@@ -86,12 +89,14 @@ struct CsvReader::State {
     double tolerance = 0;
     std::optional<double> before{};         // value in the previous row
     bool dated = false;                     // the column holds dates or times of day
+    bool dotted = true;                     // 13.05.59 is a time of day
+    double of_day = 0, midnight = 0;        // time of day in the previous row, -1 for a date; seconds to add to it
     std::optional<std::int64_t> episode{};  // id in the previous row
   };
 
-  // Evidence on the meaning of a column's commas.
+  // Evidence on the meaning of a column's commas and points.
   struct Marks {
-    std::size_t thousand = 0;  // row of the first number such as 1,012; 0: none
+    std::size_t thousand = 0;  // row of the first number such as 1,012 (or 1.012); 0: none
     std::size_t hundred = 0;   // row of the first number such as 987; 0: none
   };
 
@@ -102,13 +107,12 @@ struct CsvReader::State {
   char separator = '\0';
   bool own_form = false;
   bool uneven_time = false,
-       time_was_uneven = false;  // accept uneven steps; one was refused, in a table without episodes
-  std::vector<double> times{};   // time of every row in seconds, stored if uneven_time
-  bool plain_columns = false;    // all columns are channels or skipped, and blanks are no separator
-  bool commas = false;           // a number so far had a comma
-  bool points = false;           // a number so far had a point
-  bool decimals = false;         // a comma so far can only be a decimal one
-  std::vector<Marks> marks{};    // one per column
+       time_was_uneven = false;         // accept uneven steps; one was refused, in a table without episodes
+  std::vector<double> times{};          // time of every row in seconds, stored if uneven_time
+  bool plain_columns = false;           // all columns are channels or skipped, and blanks are no separator
+  bool commas = false, points = false;  // a number so far had a comma, a point
+  bool decimals = false;                // a mark so far can only be a decimal one
+  std::vector<Marks> marks{};           // one per column
   std::vector<double> row{};
 
   // Up to the first row: csv_head.cpp.

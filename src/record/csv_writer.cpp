@@ -1,39 +1,15 @@
-#include <charconv>
 #include <cmath>
 
 #include "base/path_text.hpp"
+#include "record/csv_cells.hpp"
+#include "record/number_text.hpp"
 #include "wisp/base/file.hpp"
 #include "wisp/record/csv.hpp"
 
 namespace wisp {
 namespace {
 
-// Appends the shortest text that reads back as the same double.
-void append_number(std::string& text, double value) {
-  char digits[32];
-  const auto [end, code] = std::to_chars(digits, digits + sizeof digits, value);
-  text.append(digits, end);
-}
-
-std::string_view role_letter(Role role) {
-  switch (role) {
-    case Role::kInput:
-      return "u";
-    case Role::kOutput:
-      return "y";
-    case Role::kMotion:
-      return "m";
-  }
-  return "";
-}
-
-// Quotes a name that contains a separator or a quote; its own quotes are doubled.
-std::string quoted(const std::string& name) {
-  if (name.find_first_of(",\"") == std::string::npos) return name;
-  std::string out = "\"";
-  for (char c : name) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
-}
+std::string_view role_letter(Role role) { return role == Role::kInput ? "u" : role == Role::kOutput ? "y" : "m"; }
 
 // A table of a single column has an episode column too: without it a missing sample would be a blank line.
 bool writes_episodes(const Recording& recording) {
@@ -42,43 +18,29 @@ bool writes_episodes(const Recording& recording) {
 
 void append_head(std::string& text, const Recording& recording) {
   text += "# wisp-recording 1\n# rate_hz ";
-  append_number(text, recording.rate_hz);
-  text += '\n';
+  text += number_text(recording.rate_hz) + "\n";
   for (const Attribute& attribute : recording.attributes) text += "# " + attribute.name + " " + attribute.value + "\n";
 
-  const char* comma = "";
-  const auto column = [&](const std::string& name) {
-    text += comma + quoted(name);
-    comma = ",";
-  };
+  const auto column = [&](const std::string& name) { text += csv::as_named(name) + ","; };
   if (writes_episodes(recording)) column("episode");
   for (const Channel& channel : recording.channels) {
     const std::string unit = channel.unit.empty() ? "" : "[" + channel.unit + "]";
     column(std::string(role_letter(channel.role)) + ":" + channel.name + unit);
   }
   for (const RowFlag& flag : recording.flags) column("flag:" + flag.name);
-  text += '\n';
+  text.back() = '\n';
 }
 
 void append_row(std::string& text, const Recording& recording, std::size_t row) {
-  bool first = true;
-  const auto separate = [&] {
-    if (!first) text += ',';
-    first = false;
-  };
   if (writes_episodes(recording)) {
-    separate();
-    text += std::to_string(recording.episode_ids.empty() ? 0 : recording.episode_ids[row]);
+    text += std::to_string(recording.episode_ids.empty() ? 0 : recording.episode_ids[row]) + ",";
   }
   for (const Channel& channel : recording.channels) {
-    separate();
-    if (!std::isnan(channel.samples[row])) append_number(text, channel.samples[row]);
+    if (!std::isnan(channel.samples[row])) text += number_text(channel.samples[row]);
+    text += ',';
   }
-  for (const RowFlag& flag : recording.flags) {
-    separate();
-    text += flag.rows[row] ? '1' : '0';
-  }
-  text += '\n';
+  for (const RowFlag& flag : recording.flags) text += flag.rows[row] ? "1," : "0,";
+  text.back() = '\n';
 }
 
 // Returns an error if the text contains one of the forbidden characters.

@@ -12,14 +12,12 @@ namespace wisp {
 
 std::string number_text(double value) {
   char text[32];
-  const auto [end, code] = std::to_chars(text, text + sizeof text, value);
-  return {text, end};
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
 std::string number_text(double value, int digits) {
   char text[32];
-  const auto [end, code] = std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits);
-  return {text, end};
+  return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr};
 }
 
 #if defined(__cpp_lib_to_chars) && !defined(WISP_READ_BY_STRTOD)

@@ -139,13 +139,10 @@ Result<std::optional<std::vector<double>>> numbers_attribute(const Recording& re
 void set_numbers_attribute(Recording& recording, std::string_view name, std::span<const double> values) {
   std::string text;
   for (double value : values) text += (text.empty() ? "" : " ") + number_text(value);
-  for (Attribute& attribute : recording.attributes) {
-    if (attribute.name == name) {
-      attribute.value = std::move(text);
-      return;
-    }
-  }
-  recording.attributes.push_back({std::string(name), std::move(text)});
+  auto& all = recording.attributes;
+  auto at = std::find_if(all.begin(), all.end(), [&](const Attribute& one) { return one.name == name; });
+  if (at == all.end()) at = all.insert(at, Attribute{std::string(name), ""});
+  at->value = std::move(text);
 }
 
 }  // namespace wisp

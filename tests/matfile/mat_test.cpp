@@ -184,6 +184,11 @@ TEST(Mat, AVectorOfTimeGivesTheRate) {
   ScratchMat file("timed");
   file.matrix("t", 4, 1, {0, 0.08, 0.16, 0.24}).matrix("u", 4, 1, {1, 2, 3, 4}).matrix("time", 4, 1, {0, 1, 3, 4});
   EXPECT_NEAR(read_mat(file.close(), {.outputs = {"u"}})->rate_hz, 12.5, 1e-9);
+  std::vector<double> times;
+  for (int k = 0; k < 2000; ++k) times.push_back(static_cast<double>(static_cast<float>(3000 + 0.01 * k)));
+  ScratchMat single("single");
+  single.matrix("t", times.size(), 1, times).matrix("u", times.size(), 1, times);
+  EXPECT_NEAR(read_mat(single.close(), {.outputs = {"u"}})->rate_hz, 100, 1e-9);
   ScratchMat uneven("untimed");
   uneven.matrix("time", 4, 1, {0, 1, 3, 4}).matrix("u", 4, 1, {1, 2, 3, 4});
   EXPECT_THAT(error_of(uneven.close(), {.outputs = {"u"}}),
@@ -321,6 +326,14 @@ TEST(Mat, VariablesOfAFileShareItsBudget) {
       .matrix("y", zeros.size(), 1, zeros, MAT_COMPRESSION_ZLIB);
   EXPECT_THAT(error_of(file.close(), {.rate_hz = 1, .inputs = {"u"}, .outputs = {"y"}}),
               AllOf(HasSubstr("variable y"), HasSubstr("would be unpacked")));
+}
+
+TEST(Mat, OfAMatrixOnlyTheColumnsThatAreReadCount) {
+  ScratchMat file("columns");
+  file.matrix("u", 1'000'000, 5, std::vector<double>(5'000'000), MAT_COMPRESSION_ZLIB);
+  const auto recording = read_mat(file.close(), {.rate_hz = 1, .inputs = {"u(:,1)", "u2"}, .outputs = {"u3"}});
+  ASSERT_TRUE(recording) << recording.error().message;
+  EXPECT_EQ(recording->channels.size(), 3u);
 }
 
 TEST(Mat, SaysHowToSaveAFileOfLevel73) {

@@ -91,6 +91,40 @@ TEST(CsvTable, AFirstRowWithADateIsNoHeader) {
   EXPECT_DOUBLE_EQ(recording->rate_hz, 0.2);
 }
 
+TEST(CsvTable, AFirstRowWithTextIsNoHeader) {
+  const CsvOptions named{.rate_hz = 1, .inputs = {"u"}, .outputs = {"y"}, .columns = {"u", "lamp", "y"}};
+  expect_samples("1,ON,4\n2.5,OFF,5\n-3e-4,ON,6\n", named);
+  EXPECT_THAT(complaint("1,ON,4\n2,OFF,5\n3,ON,6\n"), HasSubstr("give names to its 3 columns"));
+  const auto dated = parse("31.01.2024 13:05:00;ON;1,5\n31.01.2024 13:05:01;OFF;2\n",
+                           {.outputs = {"y"}, .columns = {"date", "lamp", "y"}});
+  ASSERT_TRUE(dated) << dated.error().message;
+  EXPECT_THAT(dated->channels[0].samples, ElementsAre(1.5, 2));
+}
+
+TEST(CsvTable, NumbersAsNamesBesideADateAreAHeader) {
+  const auto recording = parse("date,0.5,1.5\n2024-01-31,1,2\n2024-02-01,3,4\n", {.outputs = {"1.5"}});
+  ASSERT_TRUE(recording) << recording.error().message;
+  EXPECT_THAT(recording->channels[0].samples, ElementsAre(2, 4));
+}
+
+TEST(CsvTable, NamesOfRowsAsRWritesThemHaveNoNameThemselves) {
+  expect_samples("\"u\" \"y\"\n\"1\" 1 4\n\"2\" 2.5 5\n\"3\" -3e-4 6\n");
+  expect_samples("\"u\",\"y\"\n\"first one\",1,4\n\"b\",2.5,5\n\"c\",-3e-4,6\n");
+  const auto one = parse("\"y\"\n\"1\" 4\n\"2\" NA\n", {.rate_hz = 1, .outputs = {"y"}});
+  ASSERT_TRUE(one) << one.error().message;
+  EXPECT_THAT(one->channels[0].samples, ElementsAre(4, testing::IsNan()));
+  EXPECT_THAT(complaint("note,u\n\"a\",1,2\n", {.rate_hz = 1, .inputs = {"u"}}),
+              HasSubstr("has 3 columns, the header has 2"));
+}
+
+TEST(CsvTable, NamesThatAreNotUtf8AreLatin1) {
+  const auto recording = parse("Temperatur (\xb0\x43);y [\xb5m]\n1,5;4\n2,5;5\n",
+                               {.rate_hz = 1, .inputs = {"Temperatur (°C)"}, .outputs = {"y"}});
+  ASSERT_TRUE(recording) << recording.error().message;
+  EXPECT_THAT(recording->channels[0].samples, ElementsAre(1.5, 2.5));
+  EXPECT_EQ(recording->channels[1].unit, "µm");
+}
+
 TEST(CsvTable, WithoutAHeaderTheFirstRowMayEndInAMissingSample) {
   const auto recording =
       parse("1,\n2,5\n3,6\n", {.rate_hz = 1, .inputs = {"u"}, .outputs = {"y"}, .columns = {"u", "y"}});
@@ -100,11 +134,19 @@ TEST(CsvTable, WithoutAHeaderTheFirstRowMayEndInAMissingSample) {
 }
 
 TEST(CsvTable, WhatIsMissingIsSaidInManyWays) {
-  const auto recording = parse("u,y\n,1\nNaN,2\nNA,3\nn/a,4\n#N/A,5\nnull,6\n7,7\n");
+  const auto recording = parse("u,y\n,1\nNaN,2\nNA,3\nn/a,4\n#N/A,5\nnull,6\n#NV,7\n#N/D,8\n9,9\n");
   ASSERT_TRUE(recording) << recording.error().message;
-  for (std::size_t row = 0; row < 6; ++row) EXPECT_TRUE(std::isnan(recording->channels[0].samples[row])) << row;
-  EXPECT_EQ(recording->channels[0].samples[6], 7);
+  for (std::size_t row = 0; row < 8; ++row) EXPECT_TRUE(std::isnan(recording->channels[0].samples[row])) << row;
+  EXPECT_EQ(recording->channels[0].samples[8], 9);
   EXPECT_THAT(complaint("u,y\n1,2\n#DIV/0!,3\n"), HasSubstr("row 3: found \"#DIV/0!\", column 1, expected a number"));
+}
+
+TEST(CsvTable, RowsWithoutATimeOrAnythingElseAreNone) {
+  const CsvOptions timed{.inputs = {"u"}, .outputs = {"y"}};
+  expect_samples("t,u,y\n0,1,4\n0.5,2.5,5\n1,-3e-4,6\n,,\n\"\",,\n", timed);
+  const auto gap = parse("t;u;y\n0;1,5;4\n0,5;2;5\n;;\n1,5;3;7\n2;3;8\n", timed);
+  ASSERT_TRUE(gap) << gap.error().message;
+  EXPECT_THAT(gap->channels[1].samples, ElementsAre(4, 5, testing::IsNan(), 7, 8));
 }
 
 TEST(CsvTable, ARowOfTabsAloneIsARowOfMissingSamples) {
@@ -188,6 +230,13 @@ TEST(CsvTable, CommasThatMaySeparateThousandsAreRefused) {
   EXPECT_EQ(complaint("k;u;y\n100;1;1,012\n101;1;0,987\n"), "no complaint");  // another column's whole numbers
 }
 
+TEST(CsvTable, PointsBetweenSemicolonsThatMaySeparateThousandsAreRefused) {
+  EXPECT_THAT(complaint("k;u;y\n1;1;1.012\n2;1;987\n3;0;1.003\n"),
+              AllOf(HasSubstr("row 2"), HasSubstr("column 3 has numbers such as 1.012 and, in row 3")));
+  EXPECT_EQ(complaint("k;u;y\n1;1;1.012\n2;1;987\n3;0;1.5\n"), "no complaint");
+  EXPECT_EQ(complaint("k,u,y\n1,1,1.012\n2,1,987\n3,0,1.003\n"), "no complaint");
+}
+
 TEST(CsvTable, AllColumnsWriteNumbersInOneWayAlsoThoseThatAreNotUsed) {
   for (const char* text : {"t,u,y\n0.0,1,\"1,012\"\n0.1,1,\"1,064\"\n", "t;u;y\n0.0;1;1,000\n0.1;1;1,064\n"})
     EXPECT_THAT(complaint(text), AllOf(HasSubstr("row 2"), HasSubstr("numbers above have a decimal point")));
@@ -216,9 +265,11 @@ TEST(CsvTable, AJumpOfTheClockByYearsIsNamed) {
               HasSubstr("time has gaps of 1000 times as many rows as there are"));
 }
 
-TEST(CsvTable, AnInfiniteTimeIsNamed) {
-  EXPECT_THAT(complaint("t,u,y\n0,1,2\n0.5,2,3\ninf,3,4\n", {.inputs = {"u"}, .outputs = {"y"}}),
-              HasSubstr("time has gaps of 1000 times as many rows as there are"));
+TEST(CsvTable, ATimeThatIsNoFiniteNumberIsNamedWithItsRow) {
+  for (const std::string time : {"inf", "nan"}) {
+    EXPECT_THAT(complaint("t,u,y\n0,1,2\n0.5,2,3\n" + time + ",3,4\n", {.inputs = {"u"}, .outputs = {"y"}}),
+                HasSubstr("row 4: column \"t\" is \"" + time + "\", expected steps of 0.5"));
+  }
 }
 
 TEST(CsvTable, ACommentBetweenRowsIsPassedOver) {

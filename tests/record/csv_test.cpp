@@ -161,6 +161,27 @@ TEST(Csv, ATimeOfDayWithAFractionMayLackItsHour) {
   EXPECT_DOUBLE_EQ(rate_by_time("date;u;y\n31.01.2024 13:05:00,5;1;2\n31.01.2024 13:05:01,0;2;3\n"), 2);
 }
 
+TEST(Csv, ATimeOfDayMayHavePointsWhereItIsNoDate) {
+  EXPECT_DOUBLE_EQ(rate_by_time("time,u,y\n13.05.59,1,2\n13.06.00,2,3\n13.06.01,3,4\n"), 1);
+  EXPECT_DOUBLE_EQ(rate_by_time("date,u,y\n13.05.59,1,2\n14.05.59,2,3\n15.05.59,3,4\n"), 1 / 86400.0);
+  EXPECT_DOUBLE_EQ(rate_by_time("time,u,y\n22.01.24,1,2\n23.01.24,2,3\n24.01.24,3,4\n"), 1 / 86400.0);
+}
+
+TEST(Csv, ATimeOfDayMayBeOfTheMorningOrTheAfternoon) {
+  EXPECT_DOUBLE_EQ(rate_by_time("time,u,y\n12:59:59 PM,1,2\n1:00:00 PM,2,3\n1:00:01 PM,3,4\n"), 1);
+  EXPECT_DOUBLE_EQ(rate_by_time("date,u,y\n2024-01-31 11:59:58 p. m.,1,2\n2024-02-01 12:00:00 a.m.,2,3\n"), 0.5);
+}
+
+TEST(Csv, ATimeOfDayGoesOnAfterMidnightAndAfterTheHour) {
+  EXPECT_DOUBLE_EQ(rate_by_time("time,u,y\n23:59:58,1,2\n23:59:59,2,3\n00:00:00,3,4\n00:00:01,4,5\n"), 1);
+  EXPECT_DOUBLE_EQ(rate_by_time("time,u,y\n59:59.8,1,2\n59:59.9,2,3\n00:00.0,3,4\n00:00.1,4,5\n"), 10);
+}
+
+TEST(Csv, ATimeThatCountsFrom1970IsInFractionsOfASecond) {
+  EXPECT_DOUBLE_EQ(rate_by_time("timestamp,u,y\n1706706000000,1,2\n1706706000030,2,3\n1706706000060,3,4\n"), 1 / 0.03);
+  EXPECT_DOUBLE_EQ(rate_by_time("t,u,y\n1706706000000000,1,2\n1706706000001000,2,3\n1706706000002000,3,4\n"), 1000);
+}
+
 TEST(Csv, BesideADateThatStaysTheSameATimeOfDayGivesTheRate) {
   EXPECT_DOUBLE_EQ(rate_by_time("date,time,u,y\n2024-01-31,13:05:00,1,2\n2024-01-31,13:05:05,2,3\n"), 0.2);
   EXPECT_DOUBLE_EQ(rate_by_time("date,time,u,y\n2024-01-31,00:00,1,2\n2024-02-01,00:00,2,3\n"), 1 / 86400.0);
@@ -324,6 +345,16 @@ TEST(Csv, ASpreadsheetMayEndCommentLinesInCommas) {
   ASSERT_TRUE(recording) << recording.error().message;
   EXPECT_EQ(recording->rate_hz, 30);
   EXPECT_EQ(find_attribute(*recording, "usable"), "no");
+}
+
+TEST(Csv, ASpreadsheetMayWriteSemicolonsAndDecimalCommas) {
+  const auto recording = parse("# wisp-recording 1;;\n# rate_hz 30;;\nepisode;u:a;y:b\n0;1,5;2\n0;2,5;\n");
+  ASSERT_TRUE(recording) << recording.error().message;
+  EXPECT_EQ(recording->rate_hz, 30);
+  EXPECT_THAT(recording->channels[0].samples, ElementsAre(1.5, 2.5));
+  const auto named = parse(kHead + "y:a;b,u:c\n1,2\n3,4\n");  // a semicolon in a name separates nothing
+  ASSERT_TRUE(named) << named.error().message;
+  EXPECT_EQ(named->channels[0].name, "a;b");
 }
 
 TEST(Csv, BinaryRubbishAndEndlessLinesAreRefusedInBoundedMemory) {

@@ -48,7 +48,7 @@ class CsvReader {
 
   /// Appends up to `max_rows` further rows to `recording`: a copy of header(), with the rows of earlier calls or none.
   /// Returns their number; 0 at the end. An empty cell, NaN or NA is a missing sample. Errors: uneven time steps, a
-  /// wrong number of columns, text or infinity in place of a number, decimal points and commas in one table, commas
+  /// wrong number of columns, text or infinity in place of a number, decimal points and commas in one table, marks
   /// that may separate thousands, a line longer than 16 MiB. Part of a row may then remain.
   Result<std::size_t> read(Recording& recording, std::size_t max_rows);
 
