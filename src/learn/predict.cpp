@@ -67,13 +67,22 @@ Recording table_of(const Recording& measured, const ChannelChoice& channels, con
 int horizon_of(int steps) { return steps == kFreeRun ? kSettledSteps : steps; }
 
 Result<Recording> predict_plain(const Model& model, const Recording& measured, const PredictionOptions& options) {
+  const auto* modes = std::get_if<SwitchedArxModel>(&model.dynamics);
+  if (modes && options.initial != InitialState::kMeasured) {
+    return Error{model.name + ": is a switched model, whose free run starts from measured samples only"};
+  }
   const auto prepared = prepare(measured, model.training.preparation);
   if (!prepared) return prepared.error();
   const Recording& recording = *prepared;
   if (auto ok = check_rate(model, recording); !ok) return ok.error();
-  const auto& arx = std::get<ArxModel>(model.dynamics);
   const ChannelChoice channels = arx::channels_of(model);
   if (const auto found = arx::sources_of({&recording, 1}, channels); !found) return found.error();
+  if (modes) {
+    const auto predicted = markov::predict(*modes, recording, channels, options.steps);
+    if (!predicted) return predicted.error();
+    return table_of(recording, channels, *predicted, {});
+  }
+  const auto& arx = std::get<ArxModel>(model.dynamics);
   std::vector<double> moved;
   const Recording seen = arx::seen_by(model, recording, &moved);
   auto predicted = predict(arx, seen, channels, {options.steps, options.initial});
@@ -83,19 +92,6 @@ Result<Recording> predict_plain(const Model& model, const Recording& measured, c
   }
   return table_of(recording, channels, *predicted,
                   half_widths(prediction_sd(arx, horizon_of(options.steps)), recording, *predicted, options.steps));
-}
-
-Result<Recording> predict_modes(const Model& model, const Recording& recording, const PredictionOptions& options) {
-  if (options.initial != InitialState::kMeasured) {
-    return Error{model.name + ": is a switched model, whose free run starts from measured samples only"};
-  }
-  if (auto ok = check_rate(model, recording); !ok) return ok.error();
-  const ChannelChoice channels = arx::channels_of(model);
-  if (const auto found = arx::sources_of({&recording, 1}, channels); !found) return found.error();
-  const auto& dynamics = std::get<SwitchedArxModel>(model.dynamics);
-  const auto predicted = markov::predict(dynamics, recording, channels, options.steps);
-  if (!predicted) return predicted.error();
-  return table_of(recording, channels, *predicted, {});
 }
 
 Result<Recording> predict_outline(const Model& model, const Recording& recording, const PredictionOptions& options) {
@@ -128,8 +124,8 @@ Result<Recording> predict(const Model& model, const Recording& recording, const 
                  "how it lives"};
   }
   if (auto ok = check_steps({&options.steps, 1}); !ok) return ok.error();
-  const bool outline = std::holds_alternative<OutlineView>(model.view);
-  if (std::holds_alternative<SwitchedArxModel>(model.dynamics)) return predict_modes(model, recording, options);
+  const bool switched = std::holds_alternative<SwitchedArxModel>(model.dynamics);
+  const bool outline = !switched && std::holds_alternative<OutlineView>(model.view);
   return outline ? predict_outline(model, recording, options) : predict_plain(model, recording, options);
 }
 

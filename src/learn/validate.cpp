@@ -45,15 +45,15 @@ Result<std::vector<Said>> all_said(std::span<const NamedModel> models, const Rec
 // Rows of an output that are measured, and predicted `steps` ahead by every model that has the output.
 std::vector<std::size_t> common_rows(const std::vector<double>& measured, const std::vector<Said>& said,
                                      const std::string& output, int steps) {
+  std::vector<const std::vector<double>*> all{&measured};
+  for (const Said& one : said) {
+    const auto* predicted = one.steps == steps ? series_of(one.table, output + ".predicted") : nullptr;
+    if (predicted) all.push_back(predicted);
+  }
   std::vector<std::size_t> rows;
   for (std::size_t row = 0; row < measured.size(); ++row) {
-    bool common = std::isfinite(measured[row]);
-    for (const Said& one : said) {
-      if (one.steps != steps || !common) continue;
-      const auto* predicted = series_of(one.table, output + ".predicted");
-      common = !predicted || std::isfinite((*predicted)[row]);
-    }
-    if (common) rows.push_back(row);
+    if (std::all_of(all.begin(), all.end(), [row](const auto* one) { return std::isfinite((*one)[row]); }))
+      rows.push_back(row);
   }
   return rows;
 }
@@ -183,6 +183,36 @@ Result<Report> of_every(std::span<const Recording> recordings, Judge judge) {
   return out;
 }
 
+// Warns of channels whose unit is not that of the model.
+void warn_of_units(const Model& model, const std::string& name, const Recording& recording, Report& report) {
+  const auto look_at = [&](const auto& channels) {
+    for (const auto& one : channels) {
+      const auto found = find_channel(recording, one.name);
+      const std::string unit = found ? recording.channels[*found].unit : "";
+      if (unit.empty() || one.unit.empty() || unit == one.unit) continue;
+      report.warnings.push_back(recording.source + ": '" + one.name + "' is in " + unit + ", in " + name + " in " +
+                                one.unit + ": units are not converted");
+    }
+  };
+  look_at(model.inputs);
+  look_at(model.outputs);
+}
+
+Result<Report> validate_prepared(const Model& model, const Recording& recording, const ValidationOptions& options,
+                                 const Progress& progress) {
+  const auto prepared = prepare(recording, model.training.preparation);
+  if (!prepared) return prepared.error();
+  if (auto ok = check_rate(model, *prepared); !ok) return ok.error();
+  const bool switched = std::holds_alternative<SwitchedArxModel>(model.dynamics);
+  auto report = (switched ? validate_switched : validate_arx)(model, *prepared, options, progress);
+  if (report) warn_of_units(model, "the model", recording, *report);
+  if (report && model.training.preparation != Preparation{}) {
+    arx::add(report->sections.front(), "preparation", text_of(model.training.preparation), "prepared by", "",
+             "as the recordings that the model was learned from");
+  }
+  return report;
+}
+
 }  // namespace
 
 Result<Report> compare(std::span<const NamedModel> models, const Recording& measured, const ValidationOptions& options,
@@ -206,6 +236,7 @@ Result<Report> compare(std::span<const NamedModel> models, const Recording& meas
   ReportSection& section = report.add("Comparison, over the rows that every model predicts");
   section.tables.push_back(table_of(models, *prepared, *said, options.steps));
   add_series(models, *prepared, *said, options.steps.back(), section);
+  for (const NamedModel& one : models) warn_of_units(one.model, one.name, measured, report);
   return report;
 }
 
@@ -216,34 +247,15 @@ Result<Report> compare(std::span<const NamedModel> models, std::span<const Recor
   return of_every(recordings, [&](const Recording& one) { return compare(models, one, options, progress); });
 }
 
-namespace {
-
-Result<Report> validate_prepared(const Model& model, const Recording& recording, const ValidationOptions& options,
-                                 const Progress& progress) {
-  const auto prepared = prepare(recording, model.training.preparation);
-  if (!prepared) return prepared.error();
-  if (auto ok = check_rate(model, *prepared); !ok) return ok.error();
-  auto report = validate_arx(model, *prepared, options, progress);
-  if (report && model.training.preparation != Preparation{}) {
-    arx::add(report->sections.front(), "preparation", text_of(model.training.preparation), "prepared by", "",
-             "as the recordings that the model was learned from");
-  }
-  return report;
-}
-
-}  // namespace
-
 Result<Report> validate(const Model& model, const Recording& recording, const ValidationOptions& options,
                         const Progress& progress) {
   if (std::holds_alternative<ChainModel>(model.dynamics)) {
     return validate_chain(model, std::span(&recording, 1), options.seed, progress);
   }
-  const bool outline = std::holds_alternative<OutlineView>(model.view);
-  if (std::holds_alternative<SwitchedArxModel>(model.dynamics)) {
-    if (auto ok = check_rate(model, recording); !ok) return ok.error();
-    return validate_switched(model, recording, options, progress);
+  const bool switched = std::holds_alternative<SwitchedArxModel>(model.dynamics);
+  if (switched || !std::holds_alternative<OutlineView>(model.view)) {
+    return validate_prepared(model, recording, options, progress);
   }
-  if (!outline) return validate_prepared(model, recording, options, progress);
   auto validated = validate_outline(model, recording, options, progress);
   if (!validated) return validated.error();
   return std::move(validated->report);

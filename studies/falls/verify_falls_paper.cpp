@@ -135,7 +135,7 @@ std::vector<RealDrop> real_drops(const std::vector<Recording>& tracks) {
 
 std::vector<Fall> synthesized(const Model& model, std::span<const Fall> like, std::uint64_t seed) {
   const auto rows = static_cast<std::size_t>(kLongestFall * kCameraRate);
-  auto made = made_falls(model, static_cast<int>(like.size()), rows, seed);
+  auto made = made_falls(model, std::vector<std::size_t>(like.size(), rows), seed);
   if (!made) give_up(made.error());
   for (std::size_t k = 0; k < like.size(); ++k) made->falls[k] = fallen(made->falls[k], 0, like[k].height);
   return falls_of(made->falls);

@@ -10,6 +10,7 @@ namespace wisp::validate_test {
 namespace {
 
 using testing::Each;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::SizeIs;
 
@@ -35,6 +36,20 @@ TEST(Validate, ARecordingTooShortForResidualTestsHasTheColumnsOfTheOthers) {
     EXPECT_THAT(table.rows, SizeIs(4));
     EXPECT_THAT(table.rows, Each(SizeIs(table.columns.size())));
   }
+}
+
+TEST(Validate, AChannelInAnotherUnitThanTheModelsIsNamed) {
+  Model model = learned();
+  Recording recording = record_system(made_system(), 400, 2);
+  model.inputs[0].unit = recording.channels[0].unit = "V";
+  model.outputs[0].unit = "m";
+  EXPECT_THAT(validate(model, recording)->warnings, SizeIs(0));
+  recording.channels[2].unit = "cm";
+  const auto in_other_unit = HasSubstr("made: 'y1' is in cm, in the model in m: units are not converted");
+  EXPECT_THAT(validate(model, recording)->warnings, ElementsAre(in_other_unit));
+  const auto compared = compare(std::vector<NamedModel>{{"one", model}}, recording);
+  ASSERT_TRUE(compared) << compared.error().message;
+  EXPECT_THAT(compared->warnings, ElementsAre(HasSubstr("made: 'y1' is in cm, in one in m")));
 }
 
 TEST(Compare, ARecordingWithoutPredictedRowsDoesNotHideABadlyFittedOne) {

@@ -53,7 +53,7 @@ class ArxPart {
   /// Errors: as for a recording, and those of CsvReader.
   Result<void> add(const std::filesystem::path& table, const CsvOptions& options = {}, const TableShare& share = {});
 
-  /// Merges another part into this one. Errors: a part of another model, rows that are in both.
+  /// Merges another part into this one. Errors: a part of another model or in other units, rows that are in both.
   Result<void> merge(const ArxPart& other);
 
   /// Returns the number of rows in the regression so far.

@@ -66,10 +66,13 @@ struct Subject {
 
 // Returns the last decimal place that the first 500 samples use, from 1 to 1e-9; 0 where they use more decimals.
 double last_digit(const Series& all) {
-  double unit = 1;
+  const std::span<const double> some(all.begin(), std::min<std::size_t>(500, all.size()));
+  double unit = 1, most = 0;
+  for (double x : some) most = std::max(most, std::abs(x));
   for (int digits = 0; digits <= 9; ++digits, unit /= 10) {
-    const bool whole = std::all_of(all.begin(), all.begin() + std::min<std::ptrdiff_t>(500, std::ssize(all)),
-                                   [&](double x) { return std::abs(x / unit - std::round(x / unit)) < 1e-4; });
+    const double slack = 1e-4 * std::min(1.0, most / unit);  // samples far below a unit are no multiples of it
+    const bool whole = std::all_of(some.begin(), some.end(),
+                                   [&](double x) { return std::abs(x / unit - std::round(x / unit)) <= slack; });
     if (whole) return unit;
   }
   return 0;

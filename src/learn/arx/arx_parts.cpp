@@ -13,7 +13,6 @@
 #include "learn/fit/arx_report.hpp"
 #include "learn/judge/arx_verdict.hpp"
 #include "learn/judge/prediction.hpp"
-#include "learn/numeric/constants.hpp"
 #include "learn/report/report_values.hpp"
 #include "wisp/learn/parts.hpp"
 
@@ -74,12 +73,6 @@ Result<std::uint64_t> hash_of_file(const std::filesystem::path& path) {
   return hash;
 }
 
-// Mean of the samples that are not missing; NaN where all are.
-double mean_of(std::span<const double> samples) {
-  const std::vector<double> there = present({samples.begin(), samples.end()});
-  return there.empty() ? kMissing : mean(there);
-}
-
 // Adds rows of a recording to the state; the rows of the episode before them serve as history.
 // Errors: a missing channel, infinite samples. merge() compares the rates.
 Result<void> take_rows(const Recording& recording, const RowPart& part, PartState& state) {
@@ -92,14 +85,17 @@ Result<void> take_rows(const Recording& recording, const RowPart& part, PartStat
     if (std::any_of(samples.begin(), samples.end(), [](double sample) { return std::isinf(sample); })) {
       return Error{"channel '" + signals->names[c] + "' holds an infinite sample"};
     }
-    if (std::isnan(channel.reference)) channel.reference = mean_of(samples);
+    if (std::isnan(channel.reference)) {
+      const std::vector<double> there = present({samples.begin(), samples.end()});
+      if (!there.empty()) channel.reference = mean(there);
+    }
     if (channel.span.unit.empty()) {
       channel.span.unit = recording.channels[*find_channel(recording, signals->names[c])].unit;
     }
     signals->offset[c] = std::isnan(channel.reference) ? 0.0 : channel.reference;
     for (double sample : samples) channel.add(sample);
   }
-  const LagLayout layout = make_design(state.orders, ArxOffset::kMean).layout;
+  const LagLayout layout = layout_of(state.orders);
   const RowPlan plan = plan_part(*signals, layout, state.orders.history(), part);
   if (plan.rows > 0) reduce_rows(state.triangle, triangle_by_qr(*signals, plan, layout));
   state.rows += plan.rows;
@@ -187,10 +183,8 @@ Result<ArxFit> fit_of(const PartState& state, const ArxOptions& options, const s
                       const Progress& progress) {
   if (auto ok = check_options(options, state.names); !ok) return ok.error();
   const ArxDesign design = make_design(options.orders, options.offset, options.kernel != ArxKernel::kNone);
-  RowPlan plan;
-  plan.rows = state.rows;
-  plan.first_sample = state.orders.history();
-  if (auto ok = check_rows(plan, design); !ok) return ok.error();
+  const RowCounts counts{.rows = static_cast<std::size_t>(state.rows), .first_sample = state.orders.history()};
+  if (auto ok = check_rows(counts, design); !ok) return ok.error();
   const auto facts = facts_of(state, options);
   if (!facts) return facts.error();
   std::vector<double> shift;

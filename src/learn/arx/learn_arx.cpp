@@ -80,39 +80,6 @@ Result<ArxOrders> chosen_orders(std::span<const Recording> recordings, const Arx
   return orders_of(recipe.na, recipe.nb, *recipe.nk, recipe.coupling, channels);
 }
 
-}  // namespace
-
-Result<void> check_progress(const Progress& progress, std::string_view stage, double share) {
-  if (go_on(progress, stage, share)) return {};
-  return Error{std::string(kStopped)};
-}
-
-ArxOptions fit_options(const ArxRecipe& recipe, const ArxOrders& orders) {
-  return {.orders = orders,
-          .offset = recipe.offset,
-          .kernel = recipe.kernel,
-          .stabilise = !recipe.keep_unstable,
-          .stability_margin = 1 - recipe.radius,
-          .covariance = recipe.responses};  // needed by the confidence bands
-}
-
-Fit finish(const ArxFit& fit, const ArxRecipe& recipe, const ChannelChoice& channels, const Sources& sources) {
-  Fit out{plain_model(recipe.name, channels, sources), {}};
-  Model& model = out.model;
-  model.dynamics = fit.model;
-  model.training.own_levels = sources.own_levels;
-  model.training.recipe = notes_of(recipe, fit);
-  // Residuals of data without noise may have a singular covariance, and then no FPE.
-  if (std::isfinite(fit.summary.fpe)) model.training.figures = {{"fpe", fit.summary.fpe}};
-  model.training.figures.push_back({"samples_used", static_cast<double>(fit.summary.rows)});
-  model.training.usable = fit.summary.usable;
-  add_fit(fit, model, out.report);
-  if (recipe.responses) add_responses({fit.model, channels, sources.rate_hz, fit.covariance}, true, out.report);
-  return out;
-}
-
-namespace {
-
 // Recordings prepared for learning. With offset kMean, several recordings are all shifted to their common means.
 struct Prepared {
   std::vector<Recording> moved{};
@@ -189,6 +156,36 @@ Result<Fit> learn_prepared(std::span<const Recording> recordings, ArxRecipe reci
 }
 
 }  // namespace
+
+Result<void> check_progress(const Progress& progress, std::string_view stage, double share) {
+  if (go_on(progress, stage, share)) return {};
+  return Error{std::string(kStopped)};
+}
+
+ArxOptions fit_options(const ArxRecipe& recipe, const ArxOrders& orders) {
+  return {.orders = orders,
+          .offset = recipe.offset,
+          .kernel = recipe.kernel,
+          .stabilise = !recipe.keep_unstable,
+          .stability_margin = 1 - recipe.radius,
+          .covariance = recipe.responses};  // needed by the confidence bands
+}
+
+Fit finish(const ArxFit& fit, const ArxRecipe& recipe, const ChannelChoice& channels, const Sources& sources) {
+  Fit out{plain_model(recipe.name, channels, sources), {}};
+  Model& model = out.model;
+  model.dynamics = fit.model;
+  model.training.own_levels = sources.own_levels;
+  model.training.recipe = notes_of(recipe, fit);
+  // In some units the FPE is beyond all numbers.
+  if (std::isfinite(fit.summary.fpe)) model.training.figures = {{"fpe", fit.summary.fpe}};
+  model.training.figures.push_back({"samples_used", static_cast<double>(fit.summary.rows)});
+  model.training.usable = fit.summary.usable;
+  add_fit(fit, model, out.report);
+  if (recipe.responses) add_responses({fit.model, channels, sources.rate_hz, fit.covariance}, true, out.report);
+  return out;
+}
+
 }  // namespace arx
 
 Result<Fit> learn_arx(std::span<const Recording> recordings, const ArxRecipe& recipe, const Progress& progress) {

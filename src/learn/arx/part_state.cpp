@@ -16,8 +16,6 @@ constexpr std::uint64_t kMagic = 0x3152544350534957;  // "WISPCTR1"
 constexpr std::uint64_t kVersion = 4;
 constexpr std::size_t kHeader = 4 * 8;
 
-LagLayout layout_of(const ArxOrders& orders) { return make_design(orders, ArxOffset::kMean).layout; }
-
 // Reads or writes a state by the same walk over its fields: 8 bytes per number or letter, little-endian. Reads past the
 // end return zeros and set an error flag.
 class Archive {
@@ -25,7 +23,6 @@ class Archive {
   Archive() = default;
   explicit Archive(std::span<const std::byte> bytes) : left_(bytes), reading_(true) {}
 
-  bool reading() const { return reading_; }
   bool fine() const { return fine_; }
   bool at_end() const { return fine_ && left_.empty(); }
   std::vector<std::byte> take() { return std::move(bytes_); }
@@ -132,14 +129,18 @@ bool is_meaningful(const PartState& state) {
 }
 
 Result<void> check_same_model(const PartState& state, const PartState& other) {
-  const auto differ = [](const char* what) {
-    return Error{std::string("the parts are of different models: their ") + what + " differ"};
+  const auto differ = [](const std::string& what) {
+    return Error{"the parts are of different models: their " + what + " differ"};
   };
   if (state.names.outputs != other.names.outputs) return differ("outputs");
   if (state.names.inputs != other.names.inputs) return differ("inputs");
   if (!(state.orders == other.orders)) return differ("orders");
   const bool both = state.rate_hz != 0 && other.rate_hz != 0;
-  if (both && std::abs(state.rate_hz - other.rate_hz) > 1e-6 * state.rate_hz) return differ("rates");
+  if (both && std::abs(state.rate_hz - other.rate_hz) > 1e-3 * state.rate_hz) return differ("rates");
+  for (std::size_t c = 0; c < state.channels.size(); ++c) {
+    const std::string &unit = state.channels[c].span.unit, &its = other.channels[c].span.unit;
+    if (!unit.empty() && !its.empty() && unit != its) return differ("units (" + unit + ", " + its + ")");
+  }
   return {};
 }
 

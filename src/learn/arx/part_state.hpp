@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "learn/arx/plain_model.hpp"
-#include "learn/rows/arx_design.hpp"
 #include "wisp/base/result.hpp"
 
 namespace wisp::arx {

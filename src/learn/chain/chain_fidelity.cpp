@@ -12,6 +12,7 @@
 #include "learn/numeric/constants.hpp"
 #include "learn/report/report_values.hpp"
 #include "record/number_text.hpp"
+#include "wisp/learn/validate.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/chain_facet.hpp"
 
@@ -255,25 +256,23 @@ FeatureWindows series_windows(std::span<const Stretch> series, std::size_t rows)
   return windows;
 }
 
-Result<MadeFalls> made_falls(const Model& model, int falls, std::size_t rows, std::uint64_t seed) {
-  auto bank = Bank::create(model, {.capacity = falls, .seed = seed});
+Result<MadeFalls> made_falls(const Model& model, std::span<const std::size_t> rows, std::uint64_t seed) {
+  auto bank = Bank::create(model, {.capacity = static_cast<int>(rows.size()), .seed = seed});
   if (!bank) return bank.error();
-  for (int k = 0; k < falls; ++k) bank->spawn();
-  const auto sides = static_cast<std::size_t>(falls);
-  MadeFalls made{std::vector<Recording>(sides, empty_fall(model)), std::vector<std::vector<std::size_t>>(sides),
-                 std::vector<std::vector<int>>(sides)};
-  const std::size_t count = model.outputs.size();
-  std::vector<float> outputs(static_cast<std::size_t>(falls) * count);
+  std::vector<InstanceId> ids;
+  while (ids.size() < rows.size()) ids.push_back(bank->spawn());
+  MadeFalls made{std::vector<Recording>(rows.size(), empty_fall(model)),
+                 std::vector<std::vector<std::size_t>>(rows.size()), std::vector<std::vector<int>>(rows.size())};
+  std::vector<float> outputs(model.outputs.size());
   const ChainFacet* chain = bank->chain();
-  for (std::size_t row = 0; row < rows; ++row) {
+  for (std::size_t row = 0; bank->size() > 0; ++row) {
     if (row > 0) bank->step();
-    bank->outputs(outputs);
-    for (std::size_t k = 0; k < made.falls.size(); ++k) {
-      for (std::size_t i = 0; i < count; ++i) {
-        made.falls[k].channels[i].samples.push_back(outputs[k * count + i]);
-      }
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      if (row >= rows[k]) bank->end(ids[k]);
+      if (!bank->outputs(ids[k], outputs)) continue;
+      for (std::size_t i = 0; i < outputs.size(); ++i) made.falls[k].channels[i].samples.push_back(outputs[i]);
       if (!chain) continue;
-      const ChainPlace place = *chain->place_of(bank->at(static_cast<int>(k)));
+      const ChainPlace place = *chain->place_of(ids[k]);
       made.modes[k].push_back(static_cast<int>(place.mode));
       if (row > 0 && place.step == 0) made.joins[k].push_back(row);
     }
@@ -285,10 +284,7 @@ Result<ChainFidelity> chain_fidelity(const Model& model, std::span<const Recordi
                                      const ChainFidelityOptions& options) {
   auto seen = motion_of(real, options.smooth_rows);
   if (!seen) return seen.error();
-  if (std::abs(seen->rate_hz - model.rate_hz) > 1e-6 * model.rate_hz) {
-    return Error{real.front().source + ": has " + std::to_string(seen->rate_hz) + " rows a second, the model " +
-                 std::to_string(model.rate_hz) + ": resample the recording"};
-  }
+  if (auto ok = check_rate(model, real.front()); !ok) return ok.error();
   if (seen->has_orientation != std::holds_alternative<PoseView>(model.view))
     return Error{real.front().source + ": either it or the model has orientation, expected both or neither"};
   auto cut = segment(*seen, real, options.segmentation);
@@ -297,15 +293,12 @@ Result<ChainFidelity> chain_fidelity(const Model& model, std::span<const Recordi
   bool played_too = signal.ends_with("speed");
   for (const Output& output : model.outputs) played_too |= output.name == signal;
   if (!played_too) return Error{"falls cut at events of " + signal + " cannot be judged: the model does not play it"};
-  std::size_t longest = 0;
-  for (const MotionPiece& piece : seen->pieces) longest = std::max(longest, piece.rows());
-  const int falls = static_cast<int>(seen->pieces.size()) * kSynthesizedPerReal;
-  auto made = made_falls(model, falls, longest, options.seed);
-  if (!made) return made.error();
-  // Each made fall is cut to the length of the recorded fall that it is compared with.
-  for (std::size_t k = 0; k < made->falls.size(); ++k) {
-    made->falls[k] = slice(made->falls[k], 0, seen->pieces[k % seen->pieces.size()].rows());
+  std::vector<std::size_t> lengths;  // each made fall is as long as the recorded fall that it is compared with
+  for (int k = 0; k < kSynthesizedPerReal; ++k) {
+    for (const MotionPiece& piece : seen->pieces) lengths.push_back(piece.rows());
   }
+  auto made = made_falls(model, lengths, options.seed);
+  if (!made) return made.error();
   auto played = motion_of(made->falls, options.smooth_rows);
   if (!played) return played.error();
   // A model whose play has no events has no segments to compare; the report says so.

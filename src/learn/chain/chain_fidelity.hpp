@@ -71,8 +71,8 @@ struct MadeFalls {
   std::vector<std::vector<int>> modes;
 };
 
-/// Makes `falls` falls of `rows` rows each. Errors: as Bank::create().
-Result<MadeFalls> made_falls(const Model& model, int falls, std::size_t rows, std::uint64_t seed);
+/// Makes falls of so many rows each. Errors: as Bank::create().
+Result<MadeFalls> made_falls(const Model& model, std::span<const std::size_t> rows, std::uint64_t seed);
 
 /// Compares falls that the model makes with recorded ones (to be unseen in training). Distances are NaN where a side
 /// has under two windows. Errors: as motion_of() and segment(); a view other than pose or position; rates that differ.

@@ -2,11 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <set>
 #include <string>
 
-#include "base/hash.hpp"
 #include "learn/chain/learn_chain.hpp"
 #include "learn/chain/motion/motion.hpp"
 #include "record/number_text.hpp"
@@ -64,15 +61,6 @@ Result<void> check_paired(const Recording& recording) {
                ": how many episodes in a row belong to one gust"};
 }
 
-// Hash of all samples of an episode. Two different episodes collide with a probability below 1e-19.
-std::uint64_t hash_of(const Recording& recording, const Episode& episode) {
-  std::uint64_t hash = hash_bytes({});
-  for (const Channel& channel : recording.channels) {
-    hash = hash_bytes(std::as_bytes(std::span(channel.samples).subspan(episode.begin, episode.size())), hash);
-  }
-  return hash;
-}
-
 }  // namespace
 
 Result<void> check_motion(const Recording& recording) {
@@ -108,29 +96,6 @@ Result<SortedRecordings> sorted_recordings(std::span<const Recording> recordings
   }
   if (is_calm(paired[0])) std::swap(paired[0], paired[1]);
   return sorted;
-}
-
-Repeats repeats_in(std::span<const Recording> recordings) {
-  Repeats repeats;
-  std::set<std::uint64_t> seen;
-  for (const Recording& recording : recordings) {
-    for (const Episode& episode : episodes(recording)) {
-      ++repeats.episodes;
-      if (!seen.insert(hash_of(recording, episode)).second) ++repeats.repeated;
-    }
-  }
-  return repeats;
-}
-
-double mean_speed(std::span<const Recording> recordings) {
-  const auto motion = motion_of(recordings);
-  if (!motion) return 0;
-  double sum = 0, rows = 0;
-  for (const MotionPiece& piece : motion->pieces) {
-    for (const Triple& v : piece.velocity) sum += std::hypot(v[0], v[1], v[2]);
-    rows += static_cast<double>(piece.rows());
-  }
-  return sum / rows;
 }
 
 }  // namespace chain

@@ -1,7 +1,11 @@
 // Learns and judges a chain from recordings: sorting, fit, fidelity, gusts, verdict.
 
+#include <cmath>
+#include <cstdint>
+#include <set>
 #include <string>
 
+#include "base/hash.hpp"
 #include "learn/chain/chain_fidelity.hpp"
 #include "learn/chain/chain_fit.hpp"
 #include "learn/chain/gusts/gust_play.hpp"
@@ -39,19 +43,47 @@ Error about(std::span<const Recording> recordings, const Error& error) {
   return {recordings.front().source + ": " + error.message};
 }
 
+// Hash of all samples of an episode. Two different episodes collide with a probability below 1e-19.
+std::uint64_t hash_of(const Recording& recording, const Episode& episode) {
+  std::uint64_t hash = hash_bytes({});
+  for (const Channel& channel : recording.channels) {
+    hash = hash_bytes(std::as_bytes(std::span(channel.samples).subspan(episode.begin, episode.size())), hash);
+  }
+  return hash;
+}
+
 // Reports episodes that repeat another row by row. If all episodes are equal, declares the model unusable.
 void take_repeats(std::span<const Recording> falls, Fit& fit) {
-  const Repeats repeats = repeats_in(falls);
-  if (repeats.repeated == 0) return;
-  fit.report.sections.front().entries.push_back(
-      {"repeated_episodes", repeats.repeated, "episodes that repeat another", ""});
-  fit.report.warnings.push_back(falls.front().source + ": " + std::to_string(repeats.repeated) + " of " +
-                                std::to_string(repeats.episodes) +
+  std::size_t count = 0;
+  std::set<std::uint64_t> different;
+  for (const Recording& recording : falls) {
+    for (const Episode& episode : episodes(recording)) {
+      ++count;
+      different.insert(hash_of(recording, episode));
+    }
+  }
+  const std::size_t repeated = count - different.size();
+  if (repeated == 0) return;
+  fit.report.sections.front().entries.push_back({"repeated_episodes", repeated, "episodes that repeat another", ""});
+  fit.report.warnings.push_back(falls.front().source + ": " + std::to_string(repeated) + " of " +
+                                std::to_string(count) +
                                 " episodes repeat another row by row, expected each once: fidelity to what was held "
                                 "out says little");
-  if (repeats.episodes - repeats.repeated > 1) return;
-  fit.model.training.usable = {
-      false, "all " + std::to_string(repeats.episodes) + " episodes are the same: record falls that differ"};
+  if (different.size() > 1) return;
+  fit.model.training.usable = {false,
+                               "all " + std::to_string(count) + " episodes are the same: record falls that differ"};
+}
+
+// Mean speed of all rows, metres a second.
+double mean_speed(std::span<const Recording> recordings) {
+  const auto motion = motion_of(recordings);
+  if (!motion) return 0;
+  double sum = 0, rows = 0;
+  for (const MotionPiece& piece : motion->pieces) {
+    for (const Triple& v : piece.velocity) sum += std::hypot(v[0], v[1], v[2]);
+    rows += static_cast<double>(piece.rows());
+  }
+  return sum / rows;
 }
 
 void judge_speed(std::span<const Recording> falls, Usable& usable) {

@@ -40,15 +40,5 @@ struct SortedRecordings {
 /// Errors: as check_motion(); paired recordings other than one windy recording and its calm twin.
 Result<SortedRecordings> sorted_recordings(std::span<const Recording> recordings);
 
-/// Number of episodes, and number of episodes that repeat an earlier one row by row and so teach and test nothing.
-struct Repeats {
-  std::size_t episodes = 0;
-  std::size_t repeated = 0;
-};
-Repeats repeats_in(std::span<const Recording> recordings);
-
-/// Mean speed of all rows, metres a second.
-double mean_speed(std::span<const Recording> recordings);
-
 }  // namespace chain
 }  // namespace wisp

@@ -84,9 +84,8 @@ Result<ReportSection> fall_tracks(const Model& model, std::span<const Recording>
   if (!seen) return seen.error();
   const auto cut = segment(*seen, real, options.segmentation);
   if (!cut) return cut.error();
-  const MotionPiece& first = seen->pieces.front();
-  const auto played =
-      made_falls(model, static_cast<int>(kFalls), rows_of(first, kShownSeconds, seen->rate_hz), options.seed);
+  const std::size_t rows = rows_of(seen->pieces.front(), kShownSeconds, seen->rate_hz);
+  const auto played = made_falls(model, std::vector<std::size_t>(kFalls, rows), options.seed);
   if (!played) return played.error();
   const auto made = motion_of(played->falls, options.smooth_rows);
   if (!made) return made.error();

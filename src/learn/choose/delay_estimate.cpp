@@ -4,7 +4,6 @@
 
 #include "learn/choose/order_search.hpp"
 #include "learn/choose/search_fit.hpp"
-#include "learn/fit/arx_fit.hpp"
 #include "learn/numeric/chi_squared.hpp"
 #include "learn/rows/arx_rows.hpp"
 #include "record/number_text.hpp"

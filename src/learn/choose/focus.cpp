@@ -8,7 +8,6 @@
 
 #include "learn/judge/held_out.hpp"
 #include "learn/judge/judged_fit.hpp"
-#include "learn/rows/arx_design.hpp"
 
 namespace wisp::arx {
 namespace {
@@ -19,7 +18,6 @@ using Eigen::VectorXd;
 
 constexpr std::size_t kManyRows = 8192;    // above this, candidates are compared on a sample of the rows
 constexpr std::size_t kRowsOfMany = 4096;  // number of rows in that sample
-constexpr std::size_t kRowsOfEach = 400;   // minimum mean rows of a recording there: a held-out fifth exceeds the lags
 constexpr double kMaxKernelWork = 2e7;     // maximum of the sum over outputs of (number of coefficients)³
 constexpr double kWorthIt = 0.02;          // minimum gain, as a share of the squared error
 constexpr int kRowsALag = 10;              // minimum mean length of a recording's episodes, in lags of the kernel
@@ -102,8 +100,7 @@ class Chooser {
       : channels_(channels), options_(options) {
     std::size_t rows = 0;
     for (const Recording& one : recordings) rows += one.rows();
-    const std::size_t some = rows > kManyRows ? kRowsOfMany : kManyRows;
-    seen_ = middles_of(recordings, std::max(some, kRowsOfEach * recordings.size()));
+    seen_ = middles_of(recordings, rows > kManyRows ? kRowsOfMany : kManyRows);
     options_.judge_free_run = options_.covariance = false;
     std::vector<FocusCandidate> candidates;
     const ArxOrders apart = decoupled_orders(options.orders);

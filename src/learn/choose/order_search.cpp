@@ -86,13 +86,12 @@ class Search {
   // Layout of a model with the smallest delay and every lag up to the largest: it has the columns of all candidates.
   LagLayout layout() const {
     const int lags = options_.nb.last > 0 ? options_.nb.last + options_.nk.last - options_.nk.first : 0;
-    const ArxOrders all = make_orders({.outputs = signals_.outputs,
-                                       .inputs = signals_.inputs,
-                                       .na = options_.na.last,
-                                       .nb = lags,
-                                       .nk = options_.nk.first,
-                                       .coupling = options_.coupling});
-    return make_design(all, ArxOffset::kMean).layout;
+    return layout_of(make_orders({.outputs = signals_.outputs,
+                                  .inputs = signals_.inputs,
+                                  .na = options_.na.last,
+                                  .nb = lags,
+                                  .nk = options_.nk.first,
+                                  .coupling = options_.coupling}));
   }
 
   std::vector<double> losses(const Eigen::MatrixXd& gram, std::size_t rows) const {
@@ -177,7 +176,7 @@ class Search {
 
 // Criteria that are sums over rows are divided by the number of rows, which may differ between candidates.
 double value_of(const Criteria& criteria, OrderCriterion by, std::size_t rows) {
-  constexpr double Criteria::*kFigures[] = {&Criteria::fpe, &Criteria::aic, &Criteria::aicc, &Criteria::bic};
+  constexpr double Criteria::*kFigures[] = {&Criteria::log_fpe, &Criteria::aic, &Criteria::aicc, &Criteria::bic};
   const double value = criteria.*kFigures[static_cast<std::size_t>(by)];
   return by == OrderCriterion::kFpe ? value : value / static_cast<double>(rows);
 }
@@ -236,9 +235,6 @@ Result<OrderSearch> search_orders(std::span<const Recording> estimation, std::sp
   if (auto ok = check_steps({&options.steps, 1}); !ok) return ok.error();
   auto candidates = list_candidates(channels, options);
   if (!candidates) return candidates.error();
-  for (const OrderCandidate& candidate : *candidates) {
-    if (auto ok = check_orders(candidate.orders, channels); !ok) return ok.error();
-  }
   const auto signals = gather_signals(estimation, channels, options.offset);
   if (!signals) return signals.error();
   for (int c = 0; c < signals->channels(); ++c) {

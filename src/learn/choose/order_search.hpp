@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "learn/fit/arx_fit.hpp"
-#include "learn/rows/arx_design.hpp"
 #include "wisp/base/progress.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/model/arx.hpp"

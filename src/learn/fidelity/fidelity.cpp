@@ -61,7 +61,7 @@ struct Sides {
   std::vector<std::string> names;
   double rate_hz = 0;
   Stretches real;
-  Halves halves;
+  Halves halves;  // every other recording, or a single one cut at half its time
   Stretches synthesized;
 };
 
@@ -78,19 +78,6 @@ Result<Stretches> all_stretches(std::span<const Recording> recordings, const std
     all.insert(all.end(), std::make_move_iterator(stretches->begin()), std::make_move_iterator(stretches->end()));
   }
   return all;
-}
-
-// Splits several recordings alternately into two sides, and a single recording at half its time.
-Result<Halves> split(std::span<const Recording> real, const std::vector<std::string>& names, const Stretches& all) {
-  if (real.size() == 1) return halves_of(all);
-  Halves halves;
-  for (std::size_t r = 0; r < real.size(); ++r) {
-    auto stretches = stretches_of(real[r], names);
-    if (!stretches) return stretches.error();
-    Stretches& side = r % 2 == 0 ? halves.first : halves.second;
-    side.insert(side.end(), stretches->begin(), stretches->end());
-  }
-  return halves;
 }
 
 std::vector<std::string> output_names(const Recording& recording) {
@@ -113,12 +100,14 @@ Result<Sides> sides_of(std::span<const Recording> real, std::span<const Recordin
   sides.rate_hz = real.front().rate_hz;
   sides.names = options.channels.empty() ? output_names(real.front()) : options.channels;
   if (sides.names.empty()) return Error{real.front().source + ": has no output channel to compare"};
-  auto all = all_stretches(real, sides.names, sides.rate_hz);
-  if (!all) return all.error();
-  sides.real = *std::move(all);
-  auto halves = split(real, sides.names, sides.real);
-  if (!halves) return halves.error();
-  sides.halves = *std::move(halves);
+  for (std::size_t r = 0; r < real.size(); ++r) {
+    auto stretches = all_stretches(real.subspan(r, 1), sides.names, sides.rate_hz);
+    if (!stretches) return stretches.error();
+    sides.real.insert(sides.real.end(), stretches->begin(), stretches->end());
+    Stretches& half = r % 2 == 0 ? sides.halves.first : sides.halves.second;
+    half.insert(half.end(), stretches->begin(), stretches->end());
+  }
+  if (real.size() == 1) sides.halves = halves_of(sides.real);
   auto made = all_stretches(synthesized, sides.names, sides.rate_hz);
   if (!made) return made.error();
   sides.synthesized = *std::move(made);

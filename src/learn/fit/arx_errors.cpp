@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "learn/numeric/stream_kernels.hpp"
-#include "learn/rows/arx_design.hpp"
 
 namespace wisp {
 
@@ -21,8 +20,6 @@ Result<Signals> signals_of_model(const ArxModel& model, std::span<const Recordin
   std::copy(model.input_mean.begin(), model.input_mean.end(), signals->offset.begin() + signals->outputs);
   return signals;
 }
-
-LagLayout layout_of_model(const ArxModel& model) { return make_design(model.orders, ArxOffset::kMean).layout; }
 
 ErrorFilter::ErrorFilter(const ArxModel& model, const Signals& signals)
     : model_(model), block_(signals, model.orders.history()), rows_(model.orders.outputs()) {

@@ -16,9 +16,6 @@ namespace wisp {
 Result<Signals> signals_of_model(const ArxModel& model, std::span<const Recording> recordings,
                                  const ChannelChoice& channels);
 
-/// Layout of the lagged channels that the model uses.
-LagLayout layout_of_model(const ArxModel& model);
-
 /// The prediction-error filter A(q) y − B(q) u − c, on deviations from the operating point.
 class ErrorFilter {
  public:

@@ -256,14 +256,26 @@ double refine(const ArxDesign& design, const std::vector<SharedProblem>& problem
   return largest;
 }
 
-ChannelPairs pairs_for(const ArxDesign& design, bool joint) {
-  const int channels = design.layout.channels();
-  return joint ? ChannelPairs::Constant(channels, channels, true).eval() : wanted_pairs(design);
+// Pairs of channels whose products the design's rows need; with `joint` all pairs.
+ChannelPairs wanted_pairs(const ArxDesign& design, bool joint) {
+  ChannelPairs wanted = ChannelPairs::Constant(design.layout.channels(), design.layout.channels(), joint);
+  for (const SharedRows& group : design.groups) {
+    std::vector<int> channels = group.outputs;
+    for (int column : group.columns) {
+      if (design.layout[column].channel != kConstantChannel) channels.push_back(design.layout[column].channel);
+    }
+    std::sort(channels.begin(), channels.end());
+    channels.erase(std::unique(channels.begin(), channels.end()), channels.end());
+    for (int a : channels) {
+      for (int b : channels) wanted(a, b) = true;
+    }
+  }
+  return wanted;
 }
 
 std::optional<ArxEstimate> try_gram(const Signals& signals, const RowPlan& plan, const ArxDesign& design,
                                     const EstimateOptions& options) {
-  Eigen::MatrixXd gram = lag_gram(signals, plan, design.layout, pairs_for(design, options.joint));
+  Eigen::MatrixXd gram = lag_gram(signals, plan, design.layout, wanted_pairs(design, options.joint));
   ArxEstimate estimate;
   std::vector<SharedProblem> problems;
   double condition = 1;

@@ -42,7 +42,7 @@ Result<void> check_options(const ArxOptions& options, const ChannelChoice& chann
   return {};
 }
 
-Result<void> check_rows(const RowPlan& plan, const ArxDesign& design) {
+Result<void> check_rows(const RowCounts& plan, const ArxDesign& design) {
   if (plan.rows == 0) {
     return Error{"no row can be predicted: the first sample is " + std::to_string(plan.first_sample) +
                  " (the longest lag), and no episode has that many rows and one more without "

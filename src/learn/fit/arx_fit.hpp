@@ -52,6 +52,7 @@ struct ArxStability {
 /// Information criteria over n rows of residuals with covariance Λ, for c coefficients of all outputs together.
 struct Criteria {
   double fpe = 0;        ///< det Λ (1 + d/n)/(1 − d/n), d = c / outputs
+  double log_fpe = 0;    ///< ln FPE, which no unit makes overflow
   double fpe_total = 0;  ///< FPE with d = c, as in MATLAB
   double aic = 0;        ///< n ln det Λ + 2c
   double aicc = 0;       ///< aic + 2c (c + 1)/(n − c − 1); infinite where n <= c + 1
@@ -89,6 +90,6 @@ Result<void> check_orders(const ArxOrders& orders, const ChannelChoice& channels
 Result<void> check_options(const ArxOptions& options, const ChannelChoice& channels);
 
 /// Checks that there are enough rows for the coefficients of every output.
-Result<void> check_rows(const RowPlan& plan, const ArxDesign& design);
+Result<void> check_rows(const RowCounts& plan, const ArxDesign& design);
 
 }  // namespace wisp

@@ -12,17 +12,22 @@
 namespace wisp {
 namespace {
 
-// ln det computed from correlations, so that the channels' units cause no overflow or underflow.
+// ln det computed from correlations, so that the channels' units cause no overflow or underflow. The pivot of an output
+// that depends on others is a rounding error: with a floor such determinants can be compared.
 double log_determinant(std::span<const double> covariance, int outputs) {
+  constexpr double kRoundingPivot = 1e-12;
   const auto at = [&](int i, int j) { return covariance[static_cast<std::size_t>(i) * outputs + j]; };
   if (outputs == 1) return std::log(at(0, 0));
   Eigen::MatrixXd correlation(outputs, outputs);
   double log = 0;
   for (int i = 0; i < outputs; ++i) {
     log += std::log(at(i, i));
-    for (int j = 0; j < outputs; ++j) correlation(i, j) = at(i, j) / std::sqrt(at(i, i) * at(j, j));
+    for (int j = 0; j < outputs; ++j) {
+      const double size = std::sqrt(at(i, i)) * std::sqrt(at(j, j));
+      correlation(i, j) = size > 0 ? at(i, j) / size : 0;
+    }
   }
-  return log + Eigen::LDLT<Eigen::MatrixXd>(correlation).vectorD().array().log().sum();
+  return log + Eigen::LDLT<Eigen::MatrixXd>(correlation).vectorD().array().max(kRoundingPivot).log().sum();
 }
 
 // Inverse of a channel's scale; 0 for the scale 0 of a constant channel.
@@ -355,6 +360,7 @@ Criteria criteria_of(std::span<const double> covariance, int outputs, double row
   const double share = coefficients / outputs / rows;
   Criteria out;
   out.fpe = std::exp(log_det) * (1 + share) / (1 - share);
+  out.log_fpe = log_det + std::log((1 + share) / (1 - share));
   out.fpe_total = std::exp(log_det) * (1 + coefficients / rows) / std::max(1 - coefficients / rows, 0.0);
   out.aic = rows * log_det + 2 * coefficients;
   const double left = rows - coefficients - 1;

@@ -90,10 +90,9 @@ ExtinctionTraining training_of(const LearnedExtinction& found) {
 Result<double> scale_for(const Model& model, const Recording& recording, std::span<const BlowOut> blow_outs,
                          bool own_scale) {
   const std::string& input = model.inputs[model.extinction->input].name;
-  if (!own_scale) return trained_scale(model, input);
   const Recording burning = without_blow_outs(recording, blow_outs);
   const auto own = scaled_input({&burning, 1}, input);
-  if (!own) return own.error();
+  if (!own_scale || !own) return trained_scale(model, input);  // a calm recording has no scale
   return own->scale;
 }
 
@@ -189,7 +188,7 @@ Result<std::optional<LearnedExtinction>> ExtinguishedRecordings::complete(Model&
   auto events = recorded_events(evidence(scale, 0), view ? *view : OutlineView{});
   if (!events) return events.error();
   const auto seen = evidence(scale, events->vanishing_seconds);
-  LearnedExtinction out{.input = input_};
+  LearnedExtinction out;
   Extinction rule = choose_rule(recipe, seen, out);
   rule.input = index;
   out.agreement = agreement(rule, seen);

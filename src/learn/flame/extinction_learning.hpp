@@ -16,7 +16,6 @@ namespace wisp {
 
 /// A model's extinction rule, and its evidence in the recordings.
 struct LearnedExtinction {
-  std::string input;  ///< the wind channel that extinguishes the flame
   Origin origin = Origin::kDefault;
   std::optional<ExtinctionFit> fit;  ///< set where the rule was learned
   ExtinctionAgreement agreement;     ///< agreement of the rule with the recordings
@@ -56,8 +55,7 @@ struct JudgedExtinction {
 };
 
 /// Judges a model's rule; returns nothing if it has none. With `own_scale` an input of 1 is the 95th percentile of this
-/// recording's input while the flame burns.
-/// Errors: as find_blow_outs(); as scaled_input() with `own_scale`, as trained_scale() without.
+/// recording's input while the flame burns, if there is any wind. Errors: as find_blow_outs(), trained_scale().
 Result<std::optional<JudgedExtinction>> judge_extinction(const Model& model, const Recording& recording,
                                                          bool own_scale);
 

@@ -29,13 +29,33 @@ bool driven_by_nothing(const OutlineSummary& summary) {
   return !summary.alignment.empty() && std::none_of(summary.alignment.begin(), summary.alignment.end(), stands_out);
 }
 
-bool are_silent(std::span<const Recording> recordings) {
-  const auto is_zero = [](double u) { return !(std::abs(u) > 0); };
+// Inputs that are 0 or missing throughout all recordings.
+std::vector<std::string> silent_inputs(std::span<const Recording> recordings) {
+  std::vector<std::string> names = input_names(recordings.front());
+  const auto is_heard = [](double u) { return std::abs(u) > 0; };
   for (const Recording& recording : recordings) {
-    for (const Channel& one : recording.channels)
-      if (one.role == Role::kInput && !std::all_of(one.samples.begin(), one.samples.end(), is_zero)) return false;
+    for (const auto& [name, unit, role, samples] : recording.channels)
+      if (std::any_of(samples.begin(), samples.end(), is_heard)) std::erase(names, name);
   }
-  return true;
+  return names;
+}
+
+// Leaves out silent inputs beside others that are not (where all are silent, keeps them), and warns of inputs that are
+// not learned since the first recording lacks them.
+void drop_inputs(std::vector<Recording>& recordings, std::vector<std::string>& warnings) {
+  for (const Recording& one : recordings) {
+    for (const std::string& name : input_names(one)) {
+      if (find_channel(recordings.front(), name)) continue;
+      warnings.push_back(one.source + ": its input " + name + " is left out: " + recordings.front().source +
+                         ", the first recording, has none");
+    }
+  }
+  const std::vector<std::string> silent = silent_inputs(recordings);
+  if (silent == input_names(recordings.front())) return;
+  for (const std::string& name : silent) {
+    warnings.push_back(recordings.front().source + ": its input " + name + " is 0 throughout: left out");
+    for (Recording& one : recordings) std::erase_if(one.channels, [&](const Channel& c) { return c.name == name; });
+  }
 }
 
 Result<OutlineFit> fit_flicker(std::span<const Recording> recordings, OutlineRecipe recipe, const std::string& why,
@@ -55,15 +75,17 @@ Result<OutlineFit> fit_flicker(std::span<const Recording> recordings, OutlineRec
 // taken for wind, and an input may seem to help by chance.
 Result<OutlineFit> fit_what_drives(std::span<const Recording> recordings, const OutlineRecipe& recipe,
                                    const Progress& progress) {
-  const bool open = !recipe.inputs && !channels_with_role(recordings.front(), Role::kInput).empty();
-  if (open && are_silent(recordings)) return fit_flicker(recordings, recipe, "nothing was heard as wind", progress);
+  const std::vector<std::string> inputs = input_names(recordings.front());
+  const bool open = !recipe.inputs && !inputs.empty();
+  if (open && silent_inputs(recordings) == inputs)
+    return fit_flicker(recordings, recipe, "nothing was heard as wind", progress);
   auto fit = fit_outline(recordings, recipe, progress);
   if (!open || !fit) return fit;
   const bool unrelated = driven_by_nothing(fit->summary);
   if (!unrelated && !(followed_percent(fit->summary) < kMinFollowedPercent)) return fit;
   const std::string why = unrelated ? "has nothing in common with the motion" : "does not predict the motion";
   auto flicker = fit_flicker(recordings, recipe, "what was heard as wind " + why, progress);
-  if (!flicker) return fit;
+  if (!flicker) return flicker.error().message == kStopped ? flicker : fit;
   flicker->summary.alignment = std::move(fit->summary.alignment);
   return flicker;
 }
@@ -163,6 +185,7 @@ Result<Fit> learn_outline(std::span<const Recording> recordings, const OutlineRe
     report.warnings.push_back(recording.source + ": " + std::to_string(removed) +
                               " outlines lie far from those around them, as nothing moves: left out");
   }
+  if (!recipe.inputs) drop_inputs(*on_one_scale, report.warnings);
   const auto seen = ExtinguishedRecordings::find(*std::move(on_one_scale), recipe);
   if (!seen) return seen.error();
   auto fit = fit_steady(seen->burning(), recipe, progress);

@@ -138,11 +138,11 @@ Result<Light> gathered(std::span<const Recording> recordings, const FlickerRecip
     if (!channel) return channel.error();
     const double every = std::max(1.0, std::round(recording.rate_hz / recipe.rate_hz));
     const double rate = recording.rate_hz / every;
-    if (light.rate_hz > 0 && std::abs(rate - light.rate_hz) > 1e-6 * rate) {
+    if (light.rate_hz == 0) light.rate_hz = rate;
+    if (std::abs(rate - light.rate_hz) > 1e-3 * rate) {
       return Error{recording.source + ": comes to " + number_text(rate, 6) + " rows a second, the first recording to " +
                    number_text(light.rate_hz, 6) + "; learn from recordings of one rate"};
     }
-    light.rate_hz = rate;
     add_stretches(recording, *channel, static_cast<std::size_t>(every), light.learned);
   }
   return light;
@@ -176,7 +176,8 @@ Result<Light> light_of(std::span<const Recording> recordings, const FlickerRecip
     for (double& value : trace) value /= middle;
   }
   hold_out(*light);
-  return light;
+  if (mean(joined(light->held_out)) > 0) return light;
+  return wrong("the light is out in the last 30 %, on which the model is judged; leave out the rows after it went out");
 }
 
 // Regression of one mode's rows on the rows before them, as deviations from 1; empty where there are too few rows.

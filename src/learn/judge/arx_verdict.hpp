@@ -7,7 +7,6 @@
 
 #include "learn/fit/arx_fit.hpp"
 #include "learn/judge/residual_tests.hpp"
-#include "learn/rows/arx_design.hpp"
 #include "wisp/learn/advice.hpp"
 
 namespace wisp::arx {

@@ -96,6 +96,8 @@ std::vector<double> held_out_fits(std::span<const Recording> recordings, const C
 }
 
 std::vector<Recording> middles_of(std::span<const Recording> recordings, std::size_t max_rows) {
+  constexpr std::size_t kRowsOfEach = 400;  // minimum mean rows of a recording: a fifth of it exceeds a kernel's lags
+  max_rows = std::max(max_rows, kRowsOfEach * recordings.size());
   std::size_t total = 0;
   for (const Recording& one : recordings) total += one.rows();
   const double share = total > max_rows ? static_cast<double>(max_rows) / static_cast<double>(total) : 1;
@@ -160,7 +162,7 @@ double standard_errors_below(const Eigen::VectorXd& errors, const Eigen::VectorX
 }
 
 bool surely_better(const Eigen::VectorXd& errors, const Eigen::VectorXd& others) {
-  return standard_errors_below(errors, others) >= kSurelyBetter;
+  return standard_errors_below(errors, others) >= 2;
 }
 
 }  // namespace wisp::arx

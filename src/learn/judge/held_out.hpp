@@ -7,7 +7,6 @@
 
 #include "learn/fit/arx_fit.hpp"
 #include "learn/judge/prediction.hpp"
-#include "learn/rows/arx_design.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/model/arx.hpp"
 #include "wisp/record/recording.hpp"
@@ -29,14 +28,12 @@ std::vector<Fold> folds_of(std::span<const Recording> recordings);
 std::vector<double> held_out_fits(std::span<const Recording> recordings, const ChannelChoice& channels,
                                   const ArxOptions& options);
 
-/// The central part of every recording, the same share of all, with at most `max_rows` rows in total.
+/// The central part of every recording, the same share of all: at most `max_rows` rows in total, but of many recordings
+/// 400 rows each on average, so that brief ones keep enough for the lags of a model.
 std::vector<Recording> middles_of(std::span<const Recording> recordings, std::size_t max_rows);
 
 /// Number of parts of a fold; errors are computed for each.
 inline constexpr int kParts = 8;
-
-/// Number of standard errors by which the more complex model must be better; chance alone reaches it once in 40.
-inline constexpr double kSurelyBetter = 2;
 
 /// Mean squared errors of free simulation over kParts parts of all rows: a row per part, a column per output, divided
 /// by the output's variance; 0 for an output that never moves. `start.first_sample` is raised to the model's history,
@@ -52,7 +49,7 @@ Eigen::VectorXd relative_errors(const Eigen::MatrixXd& errors, const Eigen::Matr
 /// squared errors of the same parts. Infinite where every part is lower by the same factor.
 double standard_errors_below(const Eigen::VectorXd& errors, const Eigen::VectorXd& others);
 
-/// Whether `errors` are below `others` by kSurelyBetter standard errors.
+/// Whether `errors` are below `others` by two standard errors, which chance alone reaches once in 40.
 bool surely_better(const Eigen::VectorXd& errors, const Eigen::VectorXd& others);
 
 }  // namespace wisp::arx

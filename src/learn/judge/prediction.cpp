@@ -64,7 +64,7 @@ class StepErrors {
 Tally steps_tally(const ArxModel& model, const Signals& signals, int steps, int first_sample) {
   Tally tally(signals.outputs);
   StepErrors errors(model, signals, steps);
-  for (const RowRun& run : plan_rows(signals, layout_of_model(model), first_sample).runs) {
+  for (const RowRun& run : plan_rows(signals, layout_of(model.orders), first_sample).runs) {
     errors.run(run, [&](int k, std::size_t first, const Eigen::MatrixXd& block) {
       const std::size_t start = run.begin + static_cast<std::size_t>(k) - 1;
       const auto skip = static_cast<Eigen::Index>(start > first ? start - first : 0), rows = block.rows() - skip;
@@ -87,7 +87,7 @@ std::vector<std::vector<double>> nothing_predicted(const Signals& signals) {
 std::vector<std::vector<double>> predict_steps(const ArxModel& model, const Signals& signals, int steps) {
   auto out = nothing_predicted(signals);
   StepErrors errors(model, signals, steps);
-  for (const RowRun& run : plan_rows(signals, layout_of_model(model), model.orders.history()).runs) {
+  for (const RowRun& run : plan_rows(signals, layout_of(model.orders), model.orders.history()).runs) {
     errors.run(run, [&](int k, std::size_t first, const Eigen::MatrixXd& block) {
       if (k != steps) return;
       for (int i = 0; i < signals.outputs; ++i) {
@@ -101,72 +101,6 @@ std::vector<std::vector<double>> predict_steps(const ArxModel& model, const Sign
   return out;
 }
 
-}  // namespace
-
-Result<std::vector<std::vector<double>>> predict(const ArxModel& model, const Recording& recording,
-                                                 const ChannelChoice& channels, const PredictOptions& options) {
-  if (auto ok = check_steps({&options.steps, 1}); !ok) return ok.error();
-  const auto signals = signals_of_model(model, {&recording, 1}, channels);
-  if (!signals) return signals.error();
-  if (options.steps != kFreeRun) return predict_steps(model, *signals, options.steps);
-  auto out = nothing_predicted(*signals);
-  free_run(model, *signals, 0, {options.initial, model.orders.history()},
-           [&](std::size_t first, std::size_t rows, const double* values) {
-             for (std::size_t t = first; t < first + rows; ++t) {
-               for (int i = 0; i < signals->outputs; ++i) out[i][t] = *values++ + model.output_mean[i];
-             }
-           });
-  return out;
-}
-
-Result<std::vector<PredictionFigures>> prediction_figures(const ArxModel& model, std::span<const Recording> recordings,
-                                                          const ChannelChoice& channels, const FigureOptions& options) {
-  const auto signals = signals_of_model(model, recordings, channels);
-  if (!signals) return signals.error();
-  return figures_of(model, *signals, options);
-}
-
-Result<std::vector<PredictionFigures>> figures_of(const ArxModel& model, const Signals& signals,
-                                                  const FigureOptions& options) {
-  if (auto ok = check_figures(model, options); !ok) return ok.error();
-  const int first_sample = options.first_sample.value_or(model.orders.history());
-  std::vector<PredictionFigures> out;
-  for (int steps : options.steps) {
-    const Tally tally = steps == kFreeRun ? free_run_tally(model, signals, {options.initial, first_sample})
-                                          : steps_tally(model, signals, steps, first_sample);
-    if (tally.rows() == 0) {
-      return Error{"no row can be predicted: no stretch without gaps is longer than the model's history of " +
-                   std::to_string(model.orders.history()) + " samples" +
-                   (steps > 1 ? " and " + std::to_string(steps) + " steps" : "")};
-    }
-    out.push_back(tally.figures(steps));
-  }
-  return out;
-}
-
-Result<void> check_steps(std::span<const int> all) {
-  if (all.empty()) return Error{"no number of steps was requested"};
-  for (int steps : all) {
-    if (steps == kFreeRun || (steps >= 1 && steps <= kMaxSteps)) continue;
-    return Error{"predictions were requested " + std::to_string(steps) + " steps ahead, expected 1 to 100000, or free"};
-  }
-  return {};
-}
-
-std::vector<std::vector<double>> prediction_sd(const ArxModel& model, int steps) {
-  const int ny = model.orders.outputs();
-  const Eigen::Map<const Eigen::VectorXd> noise(model.noise.sd.data(), ny);
-  std::vector<std::vector<double>> sd(ny);
-  Eigen::VectorXd variance = Eigen::VectorXd::Zero(ny);
-  for (const Eigen::MatrixXd& weights : noise_response(model, steps)) {
-    variance += (weights * noise.asDiagonal()).rowwise().squaredNorm();
-    for (int i = 0; i < ny; ++i) sd[i].push_back(std::sqrt(variance[i]));
-  }
-  return sd;
-}
-
-namespace {
-
 // Moves the rows without missing samples to the front. Returns their number.
 Eigen::Index drop_missing(Eigen::Index rows, Eigen::MatrixXd& measured, Eigen::MatrixXd& errors) {
   if (!errors.topRows(rows).hasNaN()) return rows;
@@ -179,64 +113,6 @@ Eigen::Index drop_missing(Eigen::Index rows, Eigen::MatrixXd& measured, Eigen::M
   }
   return count;
 }
-
-}  // namespace
-
-void Tally::add_errors(const Eigen::Ref<const Eigen::MatrixXd>& errors) {
-  rows_ += static_cast<std::size_t>(errors.rows());
-  for (std::size_t i = 0; i < square_.size(); ++i) {
-    const auto column = errors.col(static_cast<Eigen::Index>(i));
-    square_[i] += column.squaredNorm();
-    size_[i] += column.cwiseAbs().sum();
-  }
-}
-
-void Tally::add_output(int i, const Eigen::Ref<const Eigen::VectorXd>& deviations) {
-  y_[i] += deviations.sum();
-  y_square_[i] += deviations.squaredNorm();
-}
-
-PredictionFigures Tally::figures(int steps) const {
-  PredictionFigures out;
-  out.steps = steps;
-  out.rows = rows_;
-  const double n = static_cast<double>(rows_);
-  for (std::size_t i = 0; i < square_.size(); ++i) {
-    out.mean_square.push_back(square_[i] / n);
-    const double variance = y_square_[i] / n - (y_[i] / n) * (y_[i] / n);
-    out.fit_percent.push_back(variance > 1e-13 * y_square_[i] / n ? 100 * (1 - std::sqrt(out.mean_square[i] / variance))
-                                                                  : 0);
-  }
-  for (double sum : size_) out.j.push_back(sum / n);
-  return out;
-}
-
-void Tally::add_simulated(const Signals& signals, std::size_t recording, std::size_t first, std::size_t rows,
-                          const double* values) {
-  const auto count = static_cast<Eigen::Index>(rows);
-  const Eigen::Map<const Eigen::MatrixXd> simulated(values, signals.outputs, count);
-  Eigen::MatrixXd measured(count, signals.outputs);
-  for (int i = 0; i < signals.outputs; ++i) {
-    const double* samples = signals.samples[recording][i].data() + first;
-    measured.col(i) = Eigen::Map<const Eigen::VectorXd>(samples, count).array() - signals.offset[i];
-  }
-  Eigen::MatrixXd errors = measured - simulated.transpose();
-  const Eigen::Index whole = drop_missing(count, measured, errors);
-  add_errors(errors.topRows(whole));
-  for (int i = 0; i < signals.outputs; ++i) add_output(i, measured.col(i).head(whole));
-}
-
-Tally free_run_tally(const ArxModel& model, const Signals& signals, const FreeRunStart& start) {
-  Tally tally(signals.outputs);
-  for (std::size_t r = 0; r < signals.samples.size(); ++r) {
-    free_run(model, signals, r, start, [&](std::size_t first, std::size_t rows, const double* values) {
-      tally.add_simulated(signals, r, first, rows, values);
-    });
-  }
-  return tally;
-}
-
-namespace {
 
 // Maximum number of rows for estimating the initial state: a stable model has forgotten it by then.
 constexpr std::size_t kRowsForInitialState = 4096;
@@ -413,6 +289,122 @@ void simulate_stretch(const Runner& runner, const RowRun& run, InitialState init
 
 }  // namespace
 
+Result<std::vector<std::vector<double>>> predict(const ArxModel& model, const Recording& recording,
+                                                 const ChannelChoice& channels, const PredictOptions& options) {
+  if (auto ok = check_steps({&options.steps, 1}); !ok) return ok.error();
+  const auto signals = signals_of_model(model, {&recording, 1}, channels);
+  if (!signals) return signals.error();
+  if (options.steps != kFreeRun) return predict_steps(model, *signals, options.steps);
+  auto out = nothing_predicted(*signals);
+  free_run(model, *signals, 0, {options.initial, model.orders.history()},
+           [&](std::size_t first, std::size_t rows, const double* values) {
+             for (std::size_t t = first; t < first + rows; ++t) {
+               for (int i = 0; i < signals->outputs; ++i) out[i][t] = *values++ + model.output_mean[i];
+             }
+           });
+  return out;
+}
+
+Result<std::vector<PredictionFigures>> prediction_figures(const ArxModel& model, std::span<const Recording> recordings,
+                                                          const ChannelChoice& channels, const FigureOptions& options) {
+  const auto signals = signals_of_model(model, recordings, channels);
+  if (!signals) return signals.error();
+  return figures_of(model, *signals, options);
+}
+
+Result<std::vector<PredictionFigures>> figures_of(const ArxModel& model, const Signals& signals,
+                                                  const FigureOptions& options) {
+  if (auto ok = check_figures(model, options); !ok) return ok.error();
+  const int first_sample = options.first_sample.value_or(model.orders.history());
+  std::vector<PredictionFigures> out;
+  for (int steps : options.steps) {
+    const Tally tally = steps == kFreeRun ? free_run_tally(model, signals, {options.initial, first_sample})
+                                          : steps_tally(model, signals, steps, first_sample);
+    if (tally.rows() == 0) {
+      return Error{"no row can be predicted: no stretch without gaps is longer than the model's history of " +
+                   std::to_string(model.orders.history()) + " samples" +
+                   (steps > 1 ? " and " + std::to_string(steps) + " steps" : "")};
+    }
+    out.push_back(tally.figures(steps));
+  }
+  return out;
+}
+
+Result<void> check_steps(std::span<const int> all) {
+  if (all.empty()) return Error{"no number of steps was requested"};
+  for (int steps : all) {
+    if (steps == kFreeRun || (steps >= 1 && steps <= kMaxSteps)) continue;
+    return Error{"predictions were requested " + std::to_string(steps) + " steps ahead, expected 1 to 100000, or free"};
+  }
+  return {};
+}
+
+std::vector<std::vector<double>> prediction_sd(const ArxModel& model, int steps) {
+  const int ny = model.orders.outputs();
+  const Eigen::Map<const Eigen::VectorXd> noise(model.noise.sd.data(), ny);
+  std::vector<std::vector<double>> sd(ny);
+  Eigen::VectorXd variance = Eigen::VectorXd::Zero(ny);
+  for (const Eigen::MatrixXd& weights : noise_response(model, steps)) {
+    variance += (weights * noise.asDiagonal()).rowwise().squaredNorm();
+    for (int i = 0; i < ny; ++i) sd[i].push_back(std::sqrt(variance[i]));
+  }
+  return sd;
+}
+
+void Tally::add_errors(const Eigen::Ref<const Eigen::MatrixXd>& errors) {
+  rows_ += static_cast<std::size_t>(errors.rows());
+  for (std::size_t i = 0; i < square_.size(); ++i) {
+    const auto column = errors.col(static_cast<Eigen::Index>(i));
+    square_[i] += column.squaredNorm();
+    size_[i] += column.cwiseAbs().sum();
+  }
+}
+
+void Tally::add_output(int i, const Eigen::Ref<const Eigen::VectorXd>& deviations) {
+  y_[i] += deviations.sum();
+  y_square_[i] += deviations.squaredNorm();
+}
+
+PredictionFigures Tally::figures(int steps) const {
+  PredictionFigures out;
+  out.steps = steps;
+  out.rows = rows_;
+  const double n = static_cast<double>(rows_);
+  for (std::size_t i = 0; i < square_.size(); ++i) {
+    out.mean_square.push_back(square_[i] / n);
+    const double variance = y_square_[i] / n - (y_[i] / n) * (y_[i] / n);
+    out.fit_percent.push_back(variance > 1e-13 * y_square_[i] / n ? 100 * (1 - std::sqrt(out.mean_square[i] / variance))
+                                                                  : 0);
+  }
+  for (double sum : size_) out.j.push_back(sum / n);
+  return out;
+}
+
+void Tally::add_simulated(const Signals& signals, std::size_t recording, std::size_t first, std::size_t rows,
+                          const double* values) {
+  const auto count = static_cast<Eigen::Index>(rows);
+  const Eigen::Map<const Eigen::MatrixXd> simulated(values, signals.outputs, count);
+  Eigen::MatrixXd measured(count, signals.outputs);
+  for (int i = 0; i < signals.outputs; ++i) {
+    const double* samples = signals.samples[recording][i].data() + first;
+    measured.col(i) = Eigen::Map<const Eigen::VectorXd>(samples, count).array() - signals.offset[i];
+  }
+  Eigen::MatrixXd errors = measured - simulated.transpose();
+  const Eigen::Index whole = drop_missing(count, measured, errors);
+  add_errors(errors.topRows(whole));
+  for (int i = 0; i < signals.outputs; ++i) add_output(i, measured.col(i).head(whole));
+}
+
+Tally free_run_tally(const ArxModel& model, const Signals& signals, const FreeRunStart& start) {
+  Tally tally(signals.outputs);
+  for (std::size_t r = 0; r < signals.samples.size(); ++r) {
+    free_run(model, signals, r, start, [&](std::size_t first, std::size_t rows, const double* values) {
+      tally.add_simulated(signals, r, first, rows, values);
+    });
+  }
+  return tally;
+}
+
 void free_run(const ArxModel& model, const Signals& signals, std::size_t recording, const FreeRunStart& start,
               const SimulatedRows& visit) {
   Runner runner(model, signals, recording);
@@ -426,7 +418,7 @@ void free_run(const ArxModel& model, const Signals& signals, std::size_t recordi
     }
     visit(first, rows, played.data());
   };
-  for (RowRun run : plan_input_rows(signals, recording, layout_of_model(model), start.first_sample).runs) {
+  for (RowRun run : plan_input_rows(signals, recording, layout_of(model.orders), start.first_sample).runs) {
     if (start.initial == InitialState::kZero) run.begin = rested_begin(signals, run, start.first_sample);
     runner.rest_until(start.initial == InitialState::kZero ? run.begin : 0);
     if (start.as_played) {

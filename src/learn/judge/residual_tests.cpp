@@ -26,7 +26,7 @@ struct Stretch {
 std::vector<Stretch> stretches_of(const ArxModel& model, const Signals& signals) {
   std::vector<Stretch> all;
   ErrorFilter filter(model, signals);
-  for (const RowRun& run : plan_rows(signals, layout_of_model(model), model.orders.history()).runs) {
+  for (const RowRun& run : plan_rows(signals, layout_of(model.orders), model.orders.history()).runs) {
     const auto rows = static_cast<Index>(run.end - run.begin);
     Stretch& stretch = all.emplace_back();
     stretch.residual.resize(rows, signals.outputs);

@@ -60,13 +60,16 @@ void maximise(const Rows& rows, const VectorXd& least, const MatrixXd& steps, St
   for (Index k = 0; k < steps.rows(); ++k) state.chain.transitions.row(k) /= state.chain.transitions.row(k).sum();
 }
 
-void alternate(const Rows& rows, const VectorXd& least, int rounds, State& state) {
-  for (int round = 0; round <= rounds; ++round) {
+// Iterates until the likelihood settles; a single mode settles at once. Returns false where the caller stops the work.
+bool alternate(const Rows& rows, const VectorXd& least, int rounds, const Progress& progress, State& state) {
+  for (int round = 0;; ++round) {
+    const double share = static_cast<double>(round) / rounds;
+    if (state.weights.cols() > 1 && !go_on(progress, "settling modes", share)) return false;
     Belief belief = believe(state.chain, rows);
     state.weights = std::move(belief.given_all);
     const double before = std::exchange(state.log_likelihood, belief.log_likelihood.sum());
     const bool settled = round > 2 && state.log_likelihood - before < kGain * static_cast<double>(rows.rows());
-    if (settled || round == rounds) return;
+    if (settled || round == rounds) return true;
     maximise(rows, least, belief.steps, state);
   }
 }
@@ -109,10 +112,10 @@ Result<State> best_of_starts(const Rows& rows, int modes, std::uint64_t seed, co
     if (!go_on(progress, stage, static_cast<double>(start) / starts)) return Error{std::string(kStopped)};
     const Index near = Index{3} * row_size(rows) << (start % 2);
     State found = drawn_start(rows, least, modes, near, seed * 1000 + static_cast<std::uint64_t>(start));
-    alternate(rows, least, kFirstRounds, found);
+    alternate(rows, least, kFirstRounds, {}, found);
     if (found.log_likelihood > best.log_likelihood) best = std::move(found);
   }
-  alternate(rows, least, kMaxRounds, best);
+  if (!alternate(rows, least, kMaxRounds, progress, best)) return Error{std::string(kStopped)};
   return best;
 }
 
@@ -127,11 +130,6 @@ void sort_modes(State& state) {
   state.chain.initial = from.initial(order);
   state.chain.transitions = from.transitions(order, order);
   state.weights = MatrixXd(state.weights(Eigen::all, order));
-}
-
-std::vector<double> row_likelihoods(const Chain& chain, const Rows& rows) {
-  const VectorXd all = believe(chain, rows).log_likelihood;
-  return {all.begin(), all.end()};
 }
 
 double gain_error(const std::vector<double>& better, const std::vector<double>& worse) {
@@ -168,7 +166,8 @@ Result<Choice> choose(const Rows& rows, const FitOptions& options, const Progres
     if (few) break;
     const auto found = best_of_starts(learned, count, options.seed, progress);
     if (!found) return found.error();
-    const auto row = row_likelihoods(found->chain, unseen);
+    const VectorXd each = believe(found->chain, unseen).log_likelihood;
+    const std::vector<double> row(each.begin(), each.end());
     const auto acted = rows_of_modes(believe(found->chain, learned).likeliest(), static_cast<std::size_t>(count));
     Candidate candidate{count, found->log_likelihood / static_cast<double>(learned.rows()), mean(row)};
     candidate.determined = static_cast<double>(*std::min_element(acted.begin(), acted.end())) >= min_rows(rows);

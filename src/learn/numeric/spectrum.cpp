@@ -33,10 +33,11 @@ struct Fourier {
   double squared_magnitude(std::span<const double> samples, std::size_t k) const {
     double real = 0;
     double imaginary = 0;
-    for (std::size_t i = 0; i < length_; ++i) {
-      const std::size_t at = (i * k) % length_;
+    for (std::size_t i = 0, at = 0; i < length_; ++i) {
       real += samples[i] * cosine_[at];
       imaginary -= samples[i] * sine_[at];
+      at += k;  // i·k modulo the length; k is below the length
+      if (at >= length_) at -= length_;
     }
     return real * real + imaginary * imaginary;
   }

@@ -36,11 +36,13 @@ double unsteadiness(const PreparedOutlines& prepared) {
   return any > 0 ? neighbours / any : 0;
 }
 
-// Index of the recording with most motion; a calm recording would not show the effect of the inputs.
+// Index of the recording with most motion; a calm recording would not show the effect of the inputs, nor would one
+// without a complete row.
 std::size_t liveliest(const PreparedOutlines& prepared) {
   std::vector<double> motion;
   for (const Recording& recording : prepared.recordings) {
     double& sum = motion.emplace_back(0.0);
+    if (complete_rows({&recording, 1}, prepared.channels) == 0) continue;
     for (const std::string& name : prepared.channels.outputs) sum += deviation(present(samples_of(recording, name)));
   }
   return static_cast<std::size_t>(std::max_element(motion.begin(), motion.end()) - motion.begin());
@@ -58,9 +60,8 @@ std::vector<Outline> outlines(std::span<const Recording> recordings, const Prepa
   std::vector<Outline> out;
   const std::size_t stride = 1 + rows / most;
   for (const Recording& recording : recordings) {
-    const auto layout = outline_layout(recording);
     for (std::size_t row = 0; row < recording.rows(); row += stride) {
-      const std::vector<double> control = whole_row(recording, *layout, row);
+      const std::vector<double> control = whole_row(recording, prepared.layout, row);
       if (control.empty()) continue;
       const auto polyline = curve.polyline(control);
       if (crossed) crossings += crosses_itself(polyline) ? 1 : 0;
@@ -149,6 +150,10 @@ Result<void> judge_others(const Model& model, const PreparedOutlines& prepared, 
                           std::uint64_t seed, std::vector<std::string>& warnings) {
   const std::size_t tried = liveliest(prepared);
   for (std::size_t k = 0; k < original.size() && !prepared.inputs.empty(); ++k) {
+    if (complete_rows({&prepared.recordings[k], 1}, prepared.channels) == 0) {
+      warnings.push_back(original[k].source + ": has no row with an outline and its inputs: not learned from");
+      continue;
+    }
     if (k == tried || static_cast<double>(original[k].rows()) < kJudged * model.rate_hz) continue;
     const auto play = played_along(model, prepared, original[k], seed);
     if (!play) return play.error();

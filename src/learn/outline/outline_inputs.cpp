@@ -91,10 +91,6 @@ Result<Strengths> strengths(std::span<const Recording> recordings, const std::st
   return out;
 }
 
-// Returns the strength up to which an input is calm. The input's scale, the 95th percentile of its windy rows, stands
-// in for the 99th percentile of all rows, to which kCalmShare refers.
-double calm_below(const OutlineInput& input) { return kCalmShare * input.scale; }
-
 double whole(double size) { return size; }
 double root(double size) { return std::sqrt(size); }
 double square(double size) { return size * size; }
@@ -200,8 +196,9 @@ std::vector<std::uint8_t> calm_rows(const Recording& recording, std::span<const 
     const auto index = find_channel(recording, input.name);
     if (!index) continue;
     const auto& samples = recording.channels[*index].samples;
+    // The scale, the 95th percentile of windy rows, stands in for the 99th of all rows, to which kCalmShare refers.
     for (std::size_t row = 0; row < calm.size(); ++row) {
-      if (!(std::abs(samples[row]) <= calm_below(input))) calm[row] = 0;
+      if (!(std::abs(samples[row]) <= kCalmShare * input.scale)) calm[row] = 0;
     }
   }
   return calm;

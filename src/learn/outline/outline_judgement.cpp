@@ -49,8 +49,7 @@ Result<std::vector<OutlineInput>> inputs_of(const Model& model, const Recording&
     OutlineInput scaled{input.name, "", *trained, input.lowest, input.highest};
     if (own_scale) {
       auto own = scaled_input({&recording, 1}, input.name);
-      if (!own) return own.error();
-      scaled = *std::move(own);
+      if (own) scaled = *std::move(own);  // a calm recording has no scale
     }
     inputs.push_back(std::move(scaled));
   }
@@ -113,9 +112,8 @@ double self_intersection_rate(const Recording& recording, const OutlineLayout& l
   const OutlineCurve curve(layout.knots, 100);
   std::size_t crossed = 0;
   for (std::size_t row = 0; row < recording.rows(); ++row) {
-    std::vector<double> control;
-    for (const Channel& channel : recording.channels) control.push_back(channel.samples[row]);
-    crossed += crosses_itself(curve.polyline(control)) ? 1 : 0;
+    const std::vector<double> control = whole_row(recording, layout, row);
+    crossed += !control.empty() && crosses_itself(curve.polyline(control)) ? 1 : 0;
   }
   return recording.rows() == 0 ? 0 : static_cast<double>(crossed) / static_cast<double>(recording.rows());
 }

@@ -24,16 +24,6 @@ Result<std::vector<std::vector<float>>> input_rows(const Model& model, const Rec
   return rows;
 }
 
-// Removes the extinction rule: synthesis shows the burning flame, extinction is judged separately.
-Model burning(Model model) {
-  model.extinction.reset();
-  return model;
-}
-
-std::size_t warm_up_steps(const Model& model, const SynthesisOptions& options) {
-  return static_cast<std::size_t>(std::ceil(options.warm_up_seconds * model.rate_hz));
-}
-
 // Steps a bank along the inputs. Row 0 drives the first step after the warm-up.
 class Player {
  public:
@@ -75,11 +65,13 @@ double share(const Bank::Clamped& before, const Bank::Clamped& after) {
 Result<Synthesis> synthesize(const Model& model, const SynthesisOptions& options) {
   const auto inputs = input_rows(model, options.input);
   if (!inputs) return inputs.error();
-  auto bank = Bank::create(burning(model), {.capacity = 1, .seed = options.seed});
+  Model burning = model;  // extinction is judged separately
+  burning.extinction.reset();
+  auto bank = Bank::create(burning, {.capacity = 1, .seed = options.seed});
   if (!bank) return bank.error();
   bank->set_noise(options.noise);
   const InstanceId id = bank->spawn();
-  const std::size_t warm_up = warm_up_steps(model, options);
+  const auto warm_up = static_cast<std::size_t>(std::ceil(options.warm_up_seconds * model.rate_hz));
   Player player(*bank, *inputs, warm_up);
   for (std::size_t t = 0; t < warm_up; ++t) player.step();
   const Bank::Clamped before = bank->clamped();

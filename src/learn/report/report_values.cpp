@@ -103,8 +103,10 @@ void complete(Fit& fit) {
                                     number_text(step, 2) + ": subtract its level");
   }
   const auto cost = count_operations(fit.model);
-  if (!cost && fit.report.verdict && fit.report.verdict->usable)
-    fit.report.warnings.push_back("the model cannot be played: " + cost.error().message);
+  if (!cost && fit.report.verdict && fit.report.verdict->usable) {
+    fit.model.training.usable = {false, "the model cannot be played: " + cost.error().message};
+    fit.report.verdict = ReportVerdict{false, fit.model.training.usable.reason};
+  }
   if (!cost) return;
   // Runtimes with little memory read the cost from the model instead of counting.
   fit.model.training.multiply_adds_per_frame = cost->multiply_adds_per_frame;

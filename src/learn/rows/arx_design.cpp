@@ -5,6 +5,14 @@
 #include <cstdlib>
 
 namespace wisp {
+namespace {
+
+bool coupled(const UniformOrders& uniform, int i, int j) {
+  const int apart = std::abs(i / uniform.group - j / uniform.group);
+  return uniform.coupling == Coupling::kFull || apart <= (uniform.coupling == Coupling::kBand ? 1 : 0);
+}
+
+}  // namespace
 
 std::vector<LaggedChannel> row_regressors(const ArxOrders& orders, int output, ArxOffset offset) {
   std::vector<LaggedChannel> columns;
@@ -46,30 +54,7 @@ ArxDesign make_design(const ArxOrders& orders, ArxOffset offset, bool apart) {
   return {std::move(layout), std::move(groups)};
 }
 
-ChannelPairs wanted_pairs(const ArxDesign& design) {
-  ChannelPairs wanted = ChannelPairs::Constant(design.layout.channels(), design.layout.channels(), false);
-  for (const SharedRows& group : design.groups) {
-    std::vector<int> channels = group.outputs;
-    for (int column : group.columns) {
-      if (design.layout[column].channel != kConstantChannel) channels.push_back(design.layout[column].channel);
-    }
-    std::sort(channels.begin(), channels.end());
-    channels.erase(std::unique(channels.begin(), channels.end()), channels.end());
-    for (int a : channels) {
-      for (int b : channels) wanted(a, b) = true;
-    }
-  }
-  return wanted;
-}
-
-namespace {
-
-bool coupled(const UniformOrders& uniform, int i, int j) {
-  const int apart = std::abs(i / uniform.group - j / uniform.group);
-  return uniform.coupling == Coupling::kFull || apart <= (uniform.coupling == Coupling::kBand ? 1 : 0);
-}
-
-}  // namespace
+LagLayout layout_of(const ArxOrders& orders) { return make_design(orders, ArxOffset::kMean).layout; }
 
 ArxOrders make_orders(const UniformOrders& uniform) {
   assert(uniform.outputs >= 1 && uniform.inputs >= 0 && uniform.group >= 1);

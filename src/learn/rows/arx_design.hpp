@@ -48,10 +48,10 @@ inline double sign_of(const LaggedChannel& column, int outputs) {
 std::vector<SharedRows> shared_rows(const ArxOrders& orders, ArxOffset offset, const LagLayout& layout,
                                     bool apart = false);
 
+/// Layout of the lagged channels that a model of these orders uses.
+LagLayout layout_of(const ArxOrders& orders);
+
 /// Design of the regression, on a layout of its regressors, its targets and the constant.
 ArxDesign make_design(const ArxOrders& orders, ArxOffset offset, bool apart = false);
-
-/// Pairs of channels whose products the design's rows need.
-ChannelPairs wanted_pairs(const ArxDesign& design);
 
 }  // namespace wisp

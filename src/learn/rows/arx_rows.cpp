@@ -32,7 +32,7 @@ Result<void> find_samples(std::span<const Recording> recordings, Signals& signal
     }
     signals.episodes.push_back(episodes(recording));
     const double rate = recordings.front().rate_hz;
-    if (std::abs(recording.rate_hz - rate) > 1e-6 * rate) {
+    if (std::abs(recording.rate_hz - rate) > 1e-3 * rate) {
       return Error{name_of(recording, r) + " has " + std::to_string(recording.rate_hz) + " samples a second and " +
                    name_of(recordings.front(), 0) + " has " + std::to_string(rate) +
                    "; one fit needs one rate: resample one of them"};

@@ -108,5 +108,18 @@ TEST(Advice, OutliersAreCountedInTheRowsOfTheirOwnRecording) {
   EXPECT_THAT(found.front().cause, HasSubstr("'y' has 1 outlier (row 11 of second.csv)"));
 }
 
+TEST(Advice, InputsInASmallUnitThatDifferAreNotTakenForOne) {
+  Recording recording = system(600, 1, 1);
+  recording.channels.push_back(recording.channels[0]);
+  recording.channels.back().name = "v";
+  std::mt19937_64 random(6);
+  std::normal_distribution<double> normal;
+  for (double& v : recording.channels.back().samples) v += 0.03 * normal(random);
+  for (std::size_t c : {0, 2}) {
+    for (double& sample : recording.channels[c].samples) sample *= 1e-6;
+  }
+  EXPECT_THAT(redundant_channels({&recording, 1}, {"u", "v"}, 0), IsEmpty());
+}
+
 }  // namespace
 }  // namespace wisp::advice_test

@@ -324,6 +324,16 @@ TEST(ArxParts, OfAnotherModelOrOfTheSameRowsAreRefused) {
               HasSubstr("sample: rows 1501:3000 of sample are in both"));
 }
 
+TEST(ArxParts, InOtherUnitsAreRefusedAndAfterAClockThatDiffersALittleAreNot) {
+  Recording first = record_system(made_system(), 300, 1), second = record_system(made_system(), 300, 2);
+  first.channels[2].unit = "m", second.rate_hz *= 1.0003;
+  ArxPart part = part_of(first, {});
+  EXPECT_TRUE(part.merge(part_of(second, {})));
+  second = record_system(made_system(), 300, 3);
+  second.channels[2].unit = "cm";
+  EXPECT_THAT(part.add(second).error().message, HasSubstr("their units (m, cm) differ"));
+}
+
 TEST(ArxParts, WithoutRowsCannotBeFinished) {
   EXPECT_FALSE(empty().finish(recipe_of_sample()));
   ArxPart part = empty();

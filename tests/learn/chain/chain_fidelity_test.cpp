@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "learn/chain/learn_chain.hpp"
 #include "learn/chain/made_falls.hpp"
 
 namespace wisp::chain::chain_fidelity_test {
@@ -41,6 +42,20 @@ TEST(SpectraApart, TwoSecondsOfFewerThanEightRowsHaveNone) {
     const Recording falls = made_falls({.falls = 4, .seconds = 400, .rate_hz = rate_hz, .swing_seconds = 60});
     const Motion motion = *motion_of(std::span(&falls, 1));
     EXPECT_TRUE(std::isnan(spectra_apart(motion, motion, 1).value)) << rate_hz;
+  }
+}
+
+TEST(MadeFalls, EveryFallHasItsOwnLengthAndIsAsInALongerPlay) {
+  const Recording falls = made_falls({.falls = 20});
+  const auto fit = learn_chain(std::span(&falls, 1), LeafRecipe());
+  ASSERT_TRUE(fit) << fit.error().message;
+  const std::vector<std::size_t> lengths = {300, 9, 40}, longest(3, 300);
+  const auto made = made_falls(fit->model, lengths, 1), whole = made_falls(fit->model, longest, 1);
+  ASSERT_TRUE(made && whole);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Recording cut = slice(whole->falls[k], 0, lengths[k]);
+    EXPECT_EQ(made->modes[k].size(), lengths[k]);
+    for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(made->falls[k].channels[i].samples, cut.channels[i].samples);
   }
 }
 

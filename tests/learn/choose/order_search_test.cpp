@@ -117,6 +117,35 @@ TEST(OrderSearch, BicFindsTheOrdersThatMadeTheData) {
   EXPECT_EQ(best.nk, 2);
 }
 
+TEST(OrderSearch, AnOutputThatRepeatsAnotherDoesNotHideTheBestOrders) {
+  Recording recording = record_system(made_system(), 2000, 6);
+  const SearchOptions options{.na = {1, 4}, .nb = {1, 3}, .nk = {0, 2}, .coupling = Coupling::kDiagonal};
+  const auto alone = search_orders({&recording, 1}, {}, {{"u1", "u2"}, {"y1"}}, options);
+  ASSERT_TRUE(alone) << alone.error().message;
+  recording.channels.push_back(recording.channels[*find_channel(recording, "y1")]);
+  recording.channels.back().name = "twice";
+  for (double& y : recording.channels.back().samples) y *= 2;
+  const auto both = search_orders({&recording, 1}, {}, {{"u1", "u2"}, {"y1", "twice"}}, options);
+  ASSERT_TRUE(both) << both.error().message;
+  EXPECT_GT(both->best, 0u);
+  EXPECT_EQ(both->candidates[both->best].orders.nk(0, 0), alone->candidates[alone->best].orders.nk(0, 0));
+  for (const OrderCandidate& candidate : both->candidates) EXPECT_TRUE(std::isfinite(candidate.bic));
+}
+
+TEST(OrderSearch, UnitsOfTheOutputsDoNotMatter) {
+  Recording recording = record_system(made_system(), 1000, 6);
+  const SearchOptions options{.na = {1, 4}, .nb = {1, 3}, .nk = {0, 2}};
+  const auto search = search_orders({&recording, 1}, {}, kChannels, options);
+  ASSERT_TRUE(search) << search.error().message;
+  for (const char* output : {"y1", "y2"}) {
+    for (double& y : recording.channels[*find_channel(recording, output)].samples) y *= 0x1p-300;
+  }
+  const auto small = search_orders({&recording, 1}, {}, kChannels, options);
+  ASSERT_TRUE(small) << small.error().message;
+  EXPECT_GT(search->best, 0u);
+  EXPECT_EQ(small->best, search->best);
+}
+
 TEST(OrderSearch, EveryOutputMayHaveOrdersOfItsOwn) {
   ArxModel model = made_system();
   model.orders = make_orders({.outputs = 2, .inputs = 2, .na = 3, .nb = 1, .nk = 1, .coupling = Coupling::kDiagonal});

@@ -214,6 +214,12 @@ TEST(ArxHardCases, RecordingsOfDifferentRatesAreAnError) {
   EXPECT_THAT(result.error().message, HasSubstr("samples a second"));
 }
 
+TEST(ArxHardCases, RatesThatDifferByTheErrorOfAClockAreOne) {
+  std::vector<Recording> recordings{second_order(300), second_order(300)};
+  recordings[1].rate_hz *= 1.0003;
+  EXPECT_TRUE(fit_arx(recordings, {{"u"}, {"y"}}, options()));
+}
+
 TEST(ArxHardCases, OrderMatricesOfTheWrongShapeAreAnError) {
   ArxOptions wrong = options();
   wrong.orders.na = OrderMatrix(2, 2, 1);

@@ -3,10 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <set>
+#include <utility>
 
 #include "learn/flame/made_blow_outs.hpp"
+#include "learn/numeric/constants.hpp"
 #include "learn/outline/made_outline.hpp"
 #include "record/loudness.hpp"
 #include "wisp/learn/validate.hpp"
@@ -191,6 +194,16 @@ TEST(LearnOutline, AnInputThatMovesNothingIsLeftOutWithAWarning) {
   EXPECT_THAT(fit.report.warnings, testing::Contains(HasSubstr("nothing in common with the motion")));
 }
 
+TEST(LearnOutline, CanBeStoppedWhileItIsLearnedWithoutItsInput) {
+  double last = 0;
+  const auto until_it_begins_again = [&](std::string_view, double share) {
+    return share >= std::exchange(last, share);
+  };
+  const auto stopped = learn_outline(std::vector{with_wind_elsewhere()}, {}, until_it_begins_again);
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().message, kStopped);
+}
+
 // Wind moves it in the first part of the recording only: in the held-out last part it leans without wind, as in a
 // draught that no microphone hears.
 TEST(LearnOutline, AnInputThatDoesNotPredictHeldOutMotionIsLeftOutWithAWarning) {
@@ -261,6 +274,31 @@ TEST(LearnOutline, FlickerAloneIsLearnedFromFilmsOfWhichOneHasNoSound) {
   EXPECT_TRUE(fit) << fit.error().message;
 }
 
+TEST(LearnOutline, ASilentInputBesideOneThatIsHeardIsLeftOut) {
+  Recording both = windy();
+  both.channels.insert(both.channels.begin(), {"dead", "1", Role::kInput, std::vector<double>(both.rows(), 0.0)});
+  const auto fit = learn_outline(std::vector{both}, FlameRecipe());
+  ASSERT_TRUE(fit) << fit.error().message;
+  ASSERT_EQ(fit->model.inputs.size(), 1u);
+  EXPECT_EQ(fit->model.inputs[0].name, "wind");
+  EXPECT_TRUE(fit->model.extinction);
+  EXPECT_THAT(fit->report.warnings, testing::Contains(HasSubstr("its input dead is 0 throughout: left out")));
+}
+
+TEST(LearnOutline, AnInputThatTheFirstRecordingLacksIsNamed) {
+  const Fit fit = learned({made::outline_recording({.rows = 900, .seed = 2}), windy()}, {});
+  EXPECT_TRUE(fit.model.inputs.empty());
+  EXPECT_THAT(fit.report.warnings, testing::Contains(HasSubstr("made 1: its input wind is left out: made 2")));
+}
+
+TEST(LearnOutline, ARecordingWithoutASampleOfItsInputIsNamedAndNotJudgedBy) {
+  Recording deaf = made::outline_recording({.rows = 900, .shock = 0.01, .wind = true, .seed = 2});
+  std::ranges::fill(deaf.channels[*find_channel(deaf, "wind")].samples, kMissing);
+  const Fit fit = learned({windy(), deaf}, {});
+  EXPECT_TRUE(fit.model.training.usable.verdict) << fit.model.training.usable.reason;
+  EXPECT_THAT(fit.report.warnings, testing::Contains(HasSubstr("not learned from")));
+}
+
 TEST(LearnOutline, CanBeStopped) {
   const auto stopped =
       learn_outline(std::vector{windy()}, {}, [](std::string_view, double share) { return share < 0.5; });
@@ -288,6 +326,14 @@ TEST(ValidateOutline, TheReportHasEveryPromisedFieldAndSeriesForPlots) {
   EXPECT_EQ(found->captured.size(), recording.rows());
   EXPECT_EQ(found->played.size(), recording.rows());
   EXPECT_EQ(found->simulated_label, "simulated from the input alone");
+}
+
+TEST(ValidateOutline, ACalmRecordingIsJudgedWithItsOwnGainToo) {
+  const Fit fit = learned({windy()}, FlameRecipe());
+  Recording calm = windy(7);
+  std::ranges::fill(calm.channels[*find_channel(calm, "wind")].samples, 0.0);
+  const auto found = validate_outline(fit.model, calm, {.own_input_scale = true, .play_seconds = 20});
+  EXPECT_TRUE(found) << found.error().message;
 }
 
 TEST(ValidateOutline, ADurationOfPlayThatIsNotPositiveIsRefused) {

@@ -114,6 +114,16 @@ TEST(LearnFlicker, WhatCannotBeLearnedFromIsSaid) {
   Recording dark = light(50, 4);
   for (double& value : dark.channels[0].samples) value = 0;
   says(dark, {}, "not above 0");
+  Recording burnt_down = light(50, 4);
+  for (std::size_t k = burnt_down.rows() / 2; k < burnt_down.rows(); ++k) burnt_down.channels[0].samples[k] = 0;
+  says(burnt_down, {}, "out in the last 30 %");
+}
+
+TEST(LearnFlicker, RatesOfTwoClocksAreOneRate) {
+  const Recording both[] = {light(50, 2), light(50.02, 3)};
+  const auto fit = learn(both, FlickerRecipe{});
+  ASSERT_TRUE(fit) << fit.error().message;
+  EXPECT_EQ(fit->model.rate_hz, 50);
 }
 
 }  // namespace

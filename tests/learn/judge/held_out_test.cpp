@@ -86,6 +86,11 @@ TEST(HeldOut, NoFoldLearnsFromRowsThatFollowWhatItHoldsOut) {
   }
 }
 
+TEST(HeldOut, MiddlesOfManyBriefRecordingsAreLongEnoughForLags) {
+  EXPECT_EQ(middles_of(std::vector<Recording>(2, made(0.5, 16384)), 8192).front().rows(), 4096U);
+  EXPECT_EQ(middles_of(std::vector<Recording>(100, made(0.5, 800)), 8192).front().rows(), 400U);
+}
+
 TEST(HeldOut, BetterInTheMeanIsNotSurelyBetterWhereItIsByChance) {
   const Eigen::VectorXd others = Eigen::VectorXd::Ones(3 * kParts);
   Eigen::VectorXd errors = 0.5 * others;

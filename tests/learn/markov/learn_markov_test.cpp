@@ -88,5 +88,13 @@ TEST(LearnSwitched, StopsBetweenStarts) {
   EXPECT_EQ(calls, 5);
 }
 
+TEST(LearnSwitched, StopsWhileTheModesOfTheBestStartSettle) {
+  const Recording recording = made_chain(1000, 1).recording;
+  const auto fit = learn_switched({&recording, 1}, recipe_of_made(),
+                                  [](std::string_view stage, double) { return stage != "settling modes"; });
+  ASSERT_FALSE(fit);
+  EXPECT_EQ(fit.error().message, kStopped);
+}
+
 }  // namespace
 }  // namespace wisp::learn_switched_test

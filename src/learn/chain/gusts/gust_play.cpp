@@ -282,7 +282,7 @@ Result<void> check(const Model& model, const GustPairs& pairs) {
                  ": has gusts, but the model has no response to them; learn it with a windy recording and its "
                  "calm twin"};
   }
-  if (std::abs(pairs.windy.rate_hz - model.rate_hz) > 1e-6 * model.rate_hz) {
+  if (!same_rate(pairs.windy.rate_hz, model.rate_hz)) {
     return Error{pairs.source + ": has " + std::to_string(pairs.windy.rate_hz) + " rows a second, the model " +
                  std::to_string(model.rate_hz) + ": resample the recording"};
   }

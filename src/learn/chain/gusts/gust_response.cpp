@@ -202,7 +202,7 @@ Result<GustPairs> gust_pairs(const Recording& windy, const Recording& calm) {
   auto blown = motion_of(std::span(&windy, 1)), still = motion_of(std::span(&calm, 1));
   if (!blown) return blown.error();
   if (!still) return still.error();
-  if (std::abs(blown->rate_hz - still->rate_hz) > 1e-6 * blown->rate_hz)
+  if (!same_rate(blown->rate_hz, still->rate_hz))
     return Error{calm.source + ": has another rate than " + windy.source + ", expected its twin at one rate"};
   const auto stated = numbers_attribute(windy, "clones");
   if (!stated) return stated.error();

@@ -287,7 +287,7 @@ Result<Motion> motion_of(std::span<const Recording> recordings, int smooth_rows)
   for (std::size_t k = 0; k < recordings.size(); ++k) {
     const Recording& recording = recordings[k];
     if (auto ok = check(recording); !ok) return ok.error();
-    if (std::abs(recording.rate_hz - motion.rate_hz) > 1e-6 * motion.rate_hz) {
+    if (!same_rate(recording.rate_hz, motion.rate_hz)) {
       return Error{recording.source + ": has " + std::to_string(recording.rate_hz) + " rows a second, expected " +
                    std::to_string(motion.rate_hz) + " as in " + recordings.front().source};
     }

@@ -24,6 +24,9 @@ std::string row_name(const Recording& recording, std::size_t row);
 inline double dot(const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 inline double length_of(const Triple& v) { return std::sqrt(dot(v, v)); }
 
+/// Whether two rates agree within 0.1 %: clocks and rounded periods may differ by that much.
+inline bool same_rate(double a, double b) { return std::abs(a - b) <= 1e-3 * b; }
+
 /// Consecutive rows of one episode of one recording, without missing samples.
 struct MotionPiece {
   std::size_t recording = 0;  ///< index of the recording

@@ -132,6 +132,15 @@ TEST(Motion, WhatHasNoPositionOrHalfAnOrientationIsAnError) {
   EXPECT_THAT(motion_of(both).error().message, HasSubstr("learn them apart"));
 }
 
+TEST(Motion, RatesOfTwoClocksAreOneRate) {
+  const Recording both[] = {made_falls({.rate_hz = 30}), made_falls({.rate_hz = 30 / 1.001, .seed = 2})};
+  const auto motion = motion_of(both);
+  ASSERT_TRUE(motion) << motion.error().message;
+  EXPECT_EQ(motion->rate_hz, 30);
+  const Recording other[] = {made_falls({.rate_hz = 30}), made_falls({.rate_hz = 30.1})};
+  EXPECT_FALSE(motion_of(other));
+}
+
 TEST(Motion, TurnsAndTheirInversesAgree) {
   const Quad q = {0.5, -0.5, 0.1, 0.7};
   double size = 0;
