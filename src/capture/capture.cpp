@@ -86,9 +86,7 @@ Result<Captured> look_at(const std::filesystem::path& path, const ClipCapture& o
   auto captured = live->finish(times);
   if (!captured) return captured;
   if (auto ok = check_frames(path, options.frames, *reader, captured->recording.rows()); !ok) return ok.error();
-  if (options.frames) {
-    captured->recording.attributes.push_back({"first_frame", std::to_string(options.frames->first)});
-  }
+  if (options.frames) captured->recording.attributes.push_back({"first_frame", std::to_string(options.frames->first)});
   for (std::string& warning : reader->warnings()) captured->report.warnings.push_back(std::move(warning));
   return captured;
 }
@@ -96,14 +94,13 @@ Result<Captured> look_at(const std::filesystem::path& path, const ClipCapture& o
 // Returns the longest run of rows without a break, as frame numbers; none if below 1.5 s or above 95 % of all rows.
 template <class Breaks>
 std::optional<FrameRange> longest_part(const Recording& recording, std::int64_t first, Breaks breaks) {
-  constexpr double kMinSeconds = 1.5, kMaxShare = 0.95;
   std::size_t begin = 0, best = 0, best_begin = 0;
   for (std::size_t row = 0; row < recording.rows(); ++row) {
     if (breaks(row)) begin = row + 1;
     if (row + 1 - begin > best) best = row + 1 - begin, best_begin = begin;
   }
   const auto rows = static_cast<double>(best);
-  if (rows < kMinSeconds * recording.rate_hz || rows > kMaxShare * static_cast<double>(recording.rows())) return {};
+  if (rows < 1.5 * recording.rate_hz || rows > 0.95 * static_cast<double>(recording.rows())) return {};
   return FrameRange{first + static_cast<std::int64_t>(best_begin),
                     first + static_cast<std::int64_t>(best_begin + best) - 1};
 }
@@ -117,7 +114,6 @@ struct Cure {
 
 Cure cure_of(const std::filesystem::path& path, const ClipCapture& options, const Result<Captured>& refused,
              const FilmFacts& film, const Progress& progress) {
-  constexpr std::int64_t kEnoughFrames = 120;  // a remedy is tried on these first frames before the whole film
   constexpr const char* kTurned[] = {"", "the film lies on its side; rotate it by 90 degrees clockwise",
                                      "the film is upside down; rotate it by 180 degrees",
                                      "the film lies on its side; rotate it by 90 degrees counter-clockwise"};
@@ -147,7 +143,8 @@ Cure cure_of(const std::filesystem::path& path, const ClipCapture& options, cons
       return {"the film is cut; give one scene of it:" + frames, ""};
     }
   }
-  const std::int64_t few = std::min(kEnoughFrames, static_cast<std::int64_t>(film.pictures));
+  // A remedy is tried on at most the first 120 frames before the whole film.
+  const std::int64_t few = std::min<std::int64_t>(120, static_cast<std::int64_t>(film.pictures));
   const auto cures = [&](int flame, int turn) {
     ClipCapture other = options;
     other.flame = flame;
@@ -267,7 +264,7 @@ Result<Recording> capture_wind(const std::filesystem::path& path, double rate_hz
 }
 
 Result<Recording> capture_brightness(const std::filesystem::path& path, const ClipCapture& options,
-                                     const Progress& progress) {
+                                     const Progress& progress, std::vector<std::string>* warnings) {
   auto reader = VideoReader::open(path, {.rate_hz = options.rate_hz, .frames = options.frames});
   if (!reader) return reader.error();
   const std::int64_t first = options.frames ? options.frames->first - 1 : 0;
@@ -294,9 +291,8 @@ Result<Recording> capture_brightness(const std::filesystem::path& path, const Cl
   const double usual = mean(present(channel.samples));
   if (!(usual > 0)) return Error{path.string() + ": is black throughout, there is no light to measure"};
   for (double& value : channel.samples) value /= usual;
-  Recording recording{.source = path.string(), .rate_hz = reader->info().rate_hz};
-  recording.channels.push_back(std::move(channel));
-  return recording;
+  if (warnings) *warnings = reader->warnings();
+  return Recording{.source = path.string(), .rate_hz = reader->info().rate_hz, .channels = {std::move(channel)}};
 }
 
 Result<Captured> capture_falls(const std::filesystem::path& path, const FallOptions& options,

@@ -7,11 +7,8 @@
 namespace wisp::wind {
 namespace {
 
-constexpr double kMinAnalysisHz = 8000;
 constexpr double kMinBoxedHz = 32000;  // minimum rate after the box mean: its droop at 3.4 kHz is then below 0.2 dB
 constexpr double kLevelHz = 300;       // corner of the levelling filter; with level_gain its gain here is 1
-constexpr float kOtherRise = 9;        // factor by which the floor rises faster under sound unlike blowing
-constexpr int kTapsPerPhase = 4;       // the low-pass has this many taps times the decimation
 
 Result<void> in_range(const char* what, double found, double least, double most, const char* unit) {
   if (found >= least && found <= most) return {};
@@ -32,7 +29,7 @@ void set_filters(Design& d) {
   d.voice_gain = power(d.high_pass.gain * d.low_pass.gain);
   d.low_gain = power(d.low.gain);
   d.high_gain = power(d.high.gain);
-  const double zero = 1 - approach(1 / rate, 1 / (2 * kPi * kLevelHz));
+  const double zero = 1 - approach(1 / rate, 1 / (2 * pi * kLevelHz));
   d.level_zero = static_cast<float>(zero);
   d.level_gain = d.voice_gain / static_cast<float>(power_of_zero(zero, kLevelHz, rate));
 }
@@ -46,7 +43,7 @@ void set_times(Design& d, const WindOptions& options) {
   d.slow_fall = static_cast<float>(approach(hop_seconds, 0.100));
   d.floor_fall = static_cast<float>(approach(hop_seconds, 0.050));
   d.floor_rise_db = static_cast<float>(options.floor_rise_db_per_second * hop_seconds);
-  d.room_rise_db = kOtherRise * d.floor_rise_db;
+  d.room_rise_db = 9 * d.floor_rise_db;
   d.room_fall = static_cast<float>(approach(hop_seconds, 2));
   d.swell_fall = static_cast<float>(approach(hop_seconds, 6));
   d.room_hops = rounded(3 / hop_seconds);
@@ -81,10 +78,10 @@ Design design(const SoundFormat& format, const WindOptions& options) {
   d.box = static_cast<int>(format.rate_hz / kMinBoxedHz);
   if (d.box < 1) d.box = 1;
   const double boxed = format.rate_hz / d.box;
-  d.decimation = static_cast<int>(boxed / kMinAnalysisHz);
+  d.decimation = static_cast<int>(boxed / 8000);
   const double rate = boxed / d.decimation;
   d.analysis_rate_hz = rate;
-  if (d.decimation > 1) d.taps = windowed_sinc(kTapsPerPhase * d.decimation, 3800 / boxed);
+  if (d.decimation > 1) d.taps = windowed_sinc(4 * d.decimation, 3800 / boxed);
   for (float& tap : d.taps) tap /= static_cast<float>(d.box);  // Decimator sums `box` samples and does not divide
 
   set_filters(d);

@@ -148,7 +148,7 @@ class Sudden {
     sounding_ = false;
     slow_db_ = T(kRoomDb);
     if (loudness_db < T(kNothingDb)) {
-      if (++nothing_hops_ == kGatedHops) heard_hops_ = kWarmHops;
+      if (++nothing_hops_ == 50) heard_hops_ = kWarmHops;  // half a second
       return;
     }
     ++heard_hops_;
@@ -157,7 +157,6 @@ class Sudden {
 
   // Background loudness assumed at a recording's beginning, so that a gust there counts as sudden.
   static constexpr float kRoomDb = -73;
-  static constexpr int kGatedHops = 50;
   static constexpr float kStartDb = 6.5F;  ///< minimum rise over the slow mean (0.35 s) at a sudden beginning
   static constexpr float kEndDb = 3;       ///< sudden sound ends less than this over the slow mean before it
 
@@ -267,7 +266,7 @@ class Voicing {
       const T product = window_[0].products[k] + window_[1].products[k] + window_[2].products[k];
       const T delayed = window_[0].delayed[k] + window_[1].delayed[k] + window_[2].delayed[k];
       const T square = energy * delayed;
-      if (square < T(kMinSquare) || product < T(0.0F)) continue;
+      if (square < T(1e-24F) || product < T(0.0F)) continue;  // silence: each energy is below 1e-12
       const T share = product / sqrt(square);
       if (most < share) most = share;
     }
@@ -282,7 +281,7 @@ class Voicing {
 
   void average(const Hop& hop, T fresh) {
     T most = T(0.0F);
-    const bool heard = T(kMinEnergy) < hop.energy;
+    const bool heard = T(1e-12F) < hop.energy;
     const T scale = heard ? T(1.0F) / hop.energy : T(0.0F);
     const T share = tone_approach_ * fresh;
     for (std::size_t k = 0; k < lags_; ++k) {
@@ -294,9 +293,6 @@ class Voicing {
     if (T(1.0F) < most) most = T(1.0F);
     hold(tone_, most, fresh);
   }
-
-  static constexpr float kMinEnergy = 1e-12F;
-  static constexpr float kMinSquare = 1e-24F;  // product of two energies, below which sound counts as silent
 
   int first_lag_;
   int length_;

@@ -23,8 +23,8 @@ Turn sin_cos(double x) {
 
 /// Returns sin for any positive angle.
 double sine(double x) {
-  const double turns = std::floor(x / (2 * kPi) + 0.5);
-  return sin_cos(x - turns * 2 * kPi).sin;
+  const double turns = std::floor(x / (2 * pi) + 0.5);
+  return sin_cos(x - turns * 2 * pi).sin;
 }
 
 struct Denominator {
@@ -34,7 +34,7 @@ struct Denominator {
 };
 
 Denominator denominator(double frequency_hz, double q, double rate_hz) {
-  const Turn w = sin_cos(2 * kPi * frequency_hz / rate_hz);
+  const Turn w = sin_cos(2 * pi * frequency_hz / rate_hz);
   return {w.sin, w.cos, w.sin / (2 * q)};
 }
 
@@ -65,9 +65,9 @@ std::vector<float> windowed_sinc(int taps, double cutoff) {
   double sum = 0;
   for (int i = 0; i < taps; ++i) {
     const double from_middle = i - (taps - 1) / 2.0;
-    const double angle = 2 * kPi * cutoff * from_middle;
-    const double sinc = from_middle == 0 ? 2 * cutoff : (angle < 0 ? -sine(-angle) : sine(angle)) / (kPi * from_middle);
-    const double window = taps == 1 ? 1 : 0.54 + 0.46 * sin_cos(2 * kPi * from_middle / (taps - 1)).cos;
+    const double angle = 2 * pi * cutoff * from_middle;
+    const double sinc = from_middle == 0 ? 2 * cutoff : (angle < 0 ? -sine(-angle) : sine(angle)) / (pi * from_middle);
+    const double window = taps == 1 ? 1 : 0.54 + 0.46 * sin_cos(2 * pi * from_middle / (taps - 1)).cos;
     exact[static_cast<std::size_t>(i)] = sinc * window;
     sum += sinc * window;
   }
@@ -77,10 +77,10 @@ std::vector<float> windowed_sinc(int taps, double cutoff) {
   return rounded;
 }
 
-Turn turn_of(double share) { return sin_cos((share > 0.5 ? share - 1 : share) * 2 * kPi); }
+Turn turn_of(double share) { return sin_cos((share > 0.5 ? share - 1 : share) * 2 * pi); }
 
 double power_of_zero(double zero, double frequency_hz, double rate_hz) {
-  const double difference = 2 * sin_cos(kPi * frequency_hz / rate_hz).sin;
+  const double difference = 2 * sin_cos(pi * frequency_hz / rate_hz).sin;
   return (1 - zero) * (1 - zero) + zero * difference * difference;
 }
 

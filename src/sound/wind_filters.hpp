@@ -1,11 +1,12 @@
 #pragma once
 // Filters of the wind estimator, and their design.
 
+#include <numbers>
 #include <vector>
 
 namespace wisp::wind {
 
-constexpr double kPi = 3.14159265358979323846;
+using std::numbers::pi;
 
 /// Coefficients of one second-order section: gain · zeros / (1 + a1 z⁻¹ + a2 z⁻²); Filter has the zeros of each kind.
 /// The gain is applied once to the band's power, not to every sample.

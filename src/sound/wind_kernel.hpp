@@ -68,12 +68,12 @@ class Tail {
       sure_hops_ = sure_hops_ < kSureHops ? sure_hops_ + 1 : kSureHops;
       softest_db_ = loudness_db;
       kept_ = likeness;
-      left_hops_ = sure_hops_ == kSureHops ? kTailHops : left_hops_;
+      left_hops_ = sure_hops_ == kSureHops ? 50 : left_hops_;
       return likeness;
     }
     sure_hops_ = 0;
     if (left_hops_ == 0) return likeness;
-    if (softest_db_ + T(kRiseDb) < loudness_db) {
+    if (softest_db_ + T(3.0F) < loudness_db) {
       left_hops_ = 0;
       return likeness;
     }
@@ -84,8 +84,6 @@ class Tail {
 
  private:
   static constexpr int kSureHops = 5;
-  static constexpr int kTailHops = 50;
-  static constexpr float kRiseDb = 3;
 
   int sure_hops_ = 0;
   int left_hops_ = 0;
@@ -167,7 +165,7 @@ class Kernel {
   bool take(Channel& channel, T x) {
     group_power_ = group_power_ + x * x;
     const float at = plain(x);
-    const bool full = at >= kFullScale || at <= -kFullScale;
+    const bool full = at >= 0.999F || at <= -0.999F;  // 16-bit clipping gives 32767 or, encoded, slightly less
     clipped_ += full;
     hop_clipped_ += full;
     return channel.decimator.push(x);
@@ -218,10 +216,10 @@ class Kernel {
     likeness_ = tail_.end_hop(likeness_now_, features_.loudness_db);
   }
 
-  /// Returns whether the sound is loud enough and began more than two hops ago: before, a voice shows no period yet.
+  /// Returns whether the sound exceeds −110 dB and began more than two hops ago: before, a voice shows no period yet.
   bool judged(T voice_sum) const {
     const T newest = T(d_.power_approach) * voice_sum * per_hop_;
-    return T(kMinJudged) < mean_.voice * T(d_.voice_gain) && newest < T(0.5F) * mean_.voice;
+    return T(1e-11F) < mean_.voice * T(d_.voice_gain) && newest < T(0.5F) * mean_.voice;
   }
 
   /// Returns the ratio of a hop's power to the 50 ms mean, at most 1.
@@ -264,9 +262,6 @@ class Kernel {
     if (T(3.0F) < peaked) peaked = T(3.0F);
     features_.peaked = peaked;
   }
-
-  static constexpr float kMinJudged = 1e-11F;  // mean power (−110 dB) below which the likeness is 0
-  static constexpr float kFullScale = 0.999F;  // 16-bit clipping gives 32767 or, after an encoder, slightly less
 
   Design d_;
   std::vector<Channel> channels_;

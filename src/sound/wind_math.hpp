@@ -18,9 +18,8 @@ struct Split {
 };
 
 inline Split split(float x) {
-  constexpr std::uint32_t kRootHalf = 0x3f3504f3U;  // the bits of 1/√2
   const std::uint32_t bits = std::bit_cast<std::uint32_t>(x);
-  const std::uint32_t above = bits - kRootHalf;
+  const std::uint32_t above = bits - 0x3f3504f3U;  // the bits of 1/√2
   const std::uint32_t exponent = above & 0xff800000U;
   return {std::bit_cast<float>(bits - exponent), static_cast<std::int32_t>(exponent) >> 23};
 }

@@ -17,12 +17,8 @@ namespace {
 
 // Wind of a recording during other sounds, from the bands between a voice's harmonics. A voice occupies few of the
 // narrow bands between 60 and 1000 Hz; wind occupies all of them, with exponentially distributed power: a quarter of
-// the bands are below 0.288 of their means. With S the spectrum of wind 1 and N that of the background, the wind's
-// power is therefore the q at which a quarter of the bands are below 0.288 · (q S + N), however loud the others are.
-constexpr double kWindowSeconds = 0.093;
-constexpr double kLowestHz = 60;
-constexpr double kHighestHz = 1000;
-constexpr double kQuarter = 0.2876820724517809;  // first quartile of an exponential distribution of mean 1
+// the bands are below ln 4/3 of their means. With S the spectrum of wind 1 and N that of the background, the wind's
+// power is therefore the q at which a quarter of the bands are below ln 4/3 · (q S + N), however loud the others are.
 
 /// Tables over the window's length: one period of cosine and of sine, and the Hann window.
 struct Tables {
@@ -56,10 +52,10 @@ class Spectra {
  public:
   /// Computes powers in 93 ms windows centred at `middles` (s). `channels`: differenced voice bands, at `rate_hz`.
   Spectra(const std::vector<std::vector<float>>& channels, double rate_hz, const std::vector<double>& middles) {
-    const auto length = static_cast<std::size_t>(kWindowSeconds * rate_hz + 0.5);
+    const auto length = static_cast<std::size_t>(0.093 * rate_hz + 0.5);
     const double width_hz = rate_hz / static_cast<double>(length);
-    const auto first = static_cast<std::size_t>(kLowestHz / width_hz + 1);
-    bands_ = static_cast<std::size_t>(kHighestHz / width_hz) + 1 - first;
+    const auto first = static_cast<std::size_t>(60 / width_hz + 1);
+    bands_ = static_cast<std::size_t>(1000 / width_hz) + 1 - first;
     powers_.assign(middles.size() * bands_, 0.0F);
     const Tables tables(length);
     std::vector<float> piece(length);
@@ -100,7 +96,7 @@ float power_between(const float* powers, const BandMeans& means) {
   std::vector<double> needed;
   for (std::size_t b = 0; b < means.wind.size(); ++b) {
     if (means.wind[b] > 0)
-      needed.push_back((static_cast<double>(powers[b]) / kQuarter - means.room[b]) / means.wind[b]);
+      needed.push_back((static_cast<double>(powers[b]) / 0.2876820724517809 - means.room[b]) / means.wind[b]);
   }
   if (needed.empty()) return 0;
   const auto quarter = needed.begin() + static_cast<std::ptrdiff_t>(needed.size() / 4);
@@ -110,11 +106,9 @@ float power_between(const float* powers, const BandMeans& means) {
 
 using Seen = std::vector<wind::Observation<float>>;
 
-constexpr float kFloorShare = 0.05F;        // the floor is this quantile of the frames' loudness
 constexpr float kQuietSeconds = 0.25F;      // minimum duration of a stretch without wind
 constexpr float kSilentDb = -80;            // a track is silent if the loudness of every frame is below
 constexpr float kBlowingConfidence = 0.5F;  // frames of higher confidence count as blowing
-constexpr float kWindHeard = 0.05F;         // frames of more wind count in blowing_share
 constexpr double kShortestPuff = 0.1;  // seconds: a knock is above half of its peak for at most this, a puff longer
 
 // Criteria of a knock: the wind exceeds `wind` for at most `seconds`, reaches `peak`, and does not exceed `wind` for
@@ -126,14 +120,14 @@ struct Knock {
 };
 constexpr Knock kKnocks[] = {{1.5F, 6, 0.3}, {0.15F, 0, 0.1}};
 
-/// Returns the kFloorShare quantile of loudness over frames that contain any sound; at least kMinFloorDb.
+/// Returns the 5 % quantile of loudness over frames that contain any sound; at least kMinFloorDb.
 float find_floor(const Seen& seen) {
   std::vector<float> loudness;
   for (const auto& one : seen) {
     if (one.loudness_db >= wind::kNothingDb) loudness.push_back(one.loudness_db);
   }
   if (loudness.empty()) return wind::kMinFloorDb;
-  return std::max(quantile(std::move(loudness), kFloorShare), wind::kMinFloorDb);
+  return std::max(quantile(std::move(loudness), 0.05F), wind::kMinFloorDb);
 }
 
 bool is_quiet(const wind::Observation<float>& one, float floor_db) {
@@ -216,8 +210,7 @@ BandMeans band_means(const Spectra& spectra, const Seen& seen, const std::vector
 /// Returns the wind of a frame: `measured` from the level, or, if smaller, `between` from the bands between a voice's
 /// harmonics; the latter only for sound unlike blowing, or if `measured` is far above it (a voice over wind).
 float wind_of(float measured, bool foreign, float between) {
-  constexpr float kMuch = 1.35F;
-  constexpr float kAtLeast = 0.08F;
+  constexpr float kMuch = 1.35F, kAtLeast = 0.08F;
   return foreign || measured > kMuch * between + kAtLeast ? std::min(measured, between) : measured;
 }
 
@@ -363,7 +356,7 @@ Result<WindTrack> WindTracker::finish() const {
   const float share = 1 / static_cast<float>(seen.size());
   track.silent = true;
   for (std::size_t k = 0; k < seen.size(); ++k) {
-    track.blowing_share += track.frames[k].wind > kWindHeard ? share : 0.0F;
+    track.blowing_share += track.frames[k].wind > 0.05F ? share : 0.0F;
     track.clipped_share += track.frames[k].clipped * share;
     track.silent = track.silent && seen[k].loudness_db < kSilentDb;
   }

@@ -27,8 +27,7 @@ struct Surroundings {
   T gust_db = T(0.0F);     ///< band power at wind 1
 };
 
-constexpr float kSureDb = 10;        ///< loudness over the floor at which audibility halves the confidence of blowing
-constexpr float kMinPower = 1e-12F;  ///< band power below which there is no wind
+constexpr float kSureDb = 10;  ///< loudness over the floor at which audibility halves the confidence of blowing
 
 /// Returns a weight of loudness over the floor: logistic from 0 to 1, 0.5 at `sure_db`, of scale `width_db`.
 template <class T>
@@ -54,7 +53,7 @@ WindFrame verdict(const Observation<T>& seen, const Surroundings<T>& around, flo
   const T power = power_over(seen, around.band_power);
   const T db = decibels(power);
   T speed = T(0.0F);
-  if (T(kMinPower) < power) speed = exp2_of((db - around.gust_db) * T(power_exponent * 0.3321928095F));
+  if (T(1e-12F) < power) speed = exp2_of((db - around.gust_db) * T(power_exponent * 0.3321928095F));
   WindFrame frame;
   frame.rms = plain(seen.rms);
   frame.rms_clean = around.rms < seen.rms ? plain(seen.rms - around.rms) : 0.0F;

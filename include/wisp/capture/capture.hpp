@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "wisp/base/progress.hpp"
 #include "wisp/base/result.hpp"
@@ -27,9 +29,9 @@ Result<Captured> capture_views(std::span<const std::filesystem::path> films, std
 /// Captures the brightness of a clip: the mean light of `options.region` (or of the whole picture) in every frame,
 /// linear in the light that fell on the camera, as the output `brightness` of mean 1. Of the other options only
 /// `frames` and `rate_hz` are used. Errors, naming the file: missing or not a clip, black throughout, a region outside
-/// the picture, kStopped.
+/// the picture, kStopped. `warnings`, if given, receives the clip's defects, such as lost or broken frames.
 Result<Recording> capture_brightness(const std::filesystem::path& path, const ClipCapture& options,
-                                     const Progress& progress = {});
+                                     const Progress& progress = {}, std::vector<std::string>* warnings = nullptr);
 
 /// Captures the falls of a light object that is dropped before a plain wall in a clip: see FallCapture.
 /// Errors, naming the file: missing or not a clip, those of FallCapture, kStopped.

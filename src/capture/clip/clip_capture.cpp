@@ -64,9 +64,7 @@ void excuse_blown_out(const ClipWind& wind, const Recording& recording, CaptureR
 
 void warn_of_sound(const ClipSource& source, const ClipWind& wind, Report& report) {
   if (wind.frames.empty()) {
-    if (!source.pictures) {
-      report.warnings.push_back("wind " + wind.note + "; without it only flicker can be learned");
-    }
+    if (!source.pictures) report.warnings.push_back("wind " + wind.note + "; without it only flicker can be learned");
   } else if (wind.uncovered > 0) {
     report.warnings.push_back("the sound ends " + std::to_string(wind.uncovered) +
                               " frames before the picture; the wind there is missing");
@@ -102,8 +100,7 @@ std::optional<std::string> missed_times(const ClipWind& wind, const ClipTimes& t
 
 // Interpolates outlines at grid times between neighbouring frames (not filled rows), unless all lie on the grid.
 void put_in_place(std::span<const float> offsets, Recording& recording) {
-  constexpr float kThere = 0.1F;  // rows: smaller offsets are ignored
-  if (std::all_of(offsets.begin(), offsets.end(), [](float offset) { return std::abs(offset) < kThere; })) return;
+  if (std::all_of(offsets.begin(), offsets.end(), [](float rows) { return std::abs(rows) < 0.1F; })) return;
   const std::vector<double> outline = recording.channels[0].samples;
   const std::vector<std::uint8_t>& filled = recording.flags[0].rows;
   const auto time = [&](std::size_t row) {

@@ -2,18 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace wisp {
 namespace {
 
-constexpr float kSilence = 1e-4F;  // −80 dB of full scale
-
 WindFrame missing_frame(std::size_t index) {
-  constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
   WindFrame frame{};
   frame.index = static_cast<std::int64_t>(index);
-  frame.rms = frame.rms_clean = frame.level = frame.speed = frame.wind = kMissing;
+  frame.rms = frame.rms_clean = frame.level = frame.speed = frame.wind = std::nanf("");
   return frame;
 }
 
@@ -94,7 +90,7 @@ std::size_t ClipEar::place(std::span<const WindFrame> heard, std::size_t frames,
 
 Result<ClipWind> ClipEar::finish(std::size_t frames, std::size_t skipped) const {
   ClipWind wind;
-  if (peak_ < kSilence) {
+  if (peak_ < 1e-4F) {  // −80 dB of full scale, as SoundInfo::silent()
     wind.note = "not heard: the sound track is silent";
     return wind;
   }

@@ -5,12 +5,6 @@
 #include <cstdio>
 
 namespace wisp {
-namespace {
-
-// Offset of a frame from the grid, in places, above which a warning about irregular times is given.
-constexpr double kIrregular = 0.6;
-
-}  // namespace
 
 std::int64_t FrameGrid::place(double seconds) {
   const std::int64_t next = last_ + 1;
@@ -21,6 +15,7 @@ std::int64_t FrameGrid::place(double seconds) {
     // Shifts the time origin, so that this frame follows the last one by the longest gap.
     ++long_gaps_;
     last_ = static_cast<std::int64_t>(longest);
+    removed_ += (place - static_cast<double>(last_)) / rate_hz_;
     first_ = seconds - static_cast<double>(last_) / rate_hz_;
     offsets_.resize(static_cast<std::size_t>(last_) + 1);
     return last_;
@@ -41,7 +36,7 @@ std::vector<std::string> FrameGrid::warnings(const std::string& name) const {
   if (long_gaps_ > 0) out.push_back(name + ": " + std::to_string(long_gaps_) + " holes in time were shortened");
   float worst = 0;
   for (const float offset : offsets_) worst = std::max(worst, std::abs(offset));
-  if (worst > kIrregular) {
+  if (worst > 0.6) {  // places
     char line[200];
     std::snprintf(
         line, sizeof line,

@@ -29,8 +29,9 @@ class FrameGrid {
   /// Offset of each place's frame from its grid time, in places, positive if late; 0 without a frame.
   const std::vector<float>& offsets() const { return offsets_; }
 
-  /// Number of gaps that were shortened.
+  /// Number of gaps that were shortened, and the time that this removed, seconds.
   int shortened() const { return long_gaps_; }
+  double removed() const { return removed_; }
 
   /// Warnings about irregular times of the clip `name`, one sentence each.
   std::vector<std::string> warnings(const std::string& name) const;
@@ -41,6 +42,7 @@ class FrameGrid {
   std::int64_t last_ = -1;
   std::vector<float> offsets_;
   int long_gaps_ = 0;
+  double removed_ = 0;
 };
 
 }  // namespace wisp

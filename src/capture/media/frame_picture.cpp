@@ -25,11 +25,10 @@ bool plain_bytes(const AVPixFmtDescriptor& format) {
   return true;
 }
 
-bool full_range(const AVFrame& frame) {
-  const int format = frame.format;
-  return frame.color_range == AVCOL_RANGE_JPEG || format == AV_PIX_FMT_YUVJ420P || format == AV_PIX_FMT_YUVJ422P ||
-         format == AV_PIX_FMT_YUVJ444P || format == AV_PIX_FMT_YUVJ440P || format == AV_PIX_FMT_YUVJ411P;
-}
+// Returns whether the format alone states full range: FFmpeg would convert it to another.
+bool is_jpeg(const AVPixFmtDescriptor& format) { return std::strncmp(format.name, "yuvj", 4) == 0; }
+
+bool full_range(const AVFrame& frame) { return frame.color_range == AVCOL_RANGE_JPEG || is_jpeg(*descriptor(frame)); }
 
 Picture borrowed(const AVFrame& frame) {
   const AVPixFmtDescriptor& format = *descriptor(frame);
@@ -96,11 +95,10 @@ Result<const AVFrame*> FramePictures::plain(const AVFrame& frame) {
   const bool square = size == std::pair(frame.width, frame.height), wide = has_wide_colours(frame);
   if (plain_bytes(format) && square && !wide) return &frame;
   const bool rgb = (format.flags & (AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_PAL)) != 0;
-  const bool jpeg = std::strncmp(format.name, "yuvj", 4) == 0;  // full range by its format: FFmpeg would convert it
   const AVPixelFormat target = wide                               ? AV_PIX_FMT_RGB48
                                : format.nb_components < 3 && !rgb ? AV_PIX_FMT_GRAY8
                                : rgb                              ? AV_PIX_FMT_RGB24
-                               : jpeg                             ? AV_PIX_FMT_YUVJ444P
+                               : is_jpeg(format)                  ? AV_PIX_FMT_YUVJ444P
                                                                   : AV_PIX_FMT_YUV444P;
   if (!take_frame(plain_, size, target)) return Error{"not enough memory for a frame"};
   to_plain_.reset(sws_getCachedContext(to_plain_.release(), frame.width, frame.height,

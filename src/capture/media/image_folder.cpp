@@ -32,7 +32,6 @@ constexpr std::array<ImageKind, 9> kKinds{{{".png", AV_CODEC_ID_PNG},
 
 // Maximum size of an image file; a larger one is no frame of a clip.
 constexpr std::size_t kMaxImageBytes = std::size_t{256} << 20;
-constexpr std::size_t kMaxDigits = 18;  // fit in 64 bits
 
 std::string lower(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -71,11 +70,13 @@ int counting_group(const std::vector<std::filesystem::path>& images) {
 // Returns whether a PNG or JPEG file is truncated: decoders would fill the missing part with grey.
 bool is_cut(std::span<const std::byte> bytes, AVCodecID codec) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  const auto last = [&](std::string_view mark) { return text.rfind(mark); };
-  if (codec == AV_CODEC_ID_PNG) return last("IDAT") != text.npos && last("IEND") == text.npos;
+  if (codec == AV_CODEC_ID_PNG) return text.rfind("IDAT") != text.npos && text.rfind("IEND") == text.npos;
   if (codec != AV_CODEC_ID_MJPEG) return false;
-  const std::size_t scan = last("\xff\xda"), end = last("\xff\xd9");
-  return scan != text.npos && (end == text.npos || end < scan);
+  // Skips the segments before the first scan: one may hold a small picture. Behind the end, a phone may add a film.
+  const auto byte = [&](std::size_t k) { return std::to_integer<std::size_t>(bytes[k]); };
+  std::size_t scan = 2;
+  while (scan + 4 <= text.size() && byte(scan + 1) != 0xda) scan += 2 + (byte(scan + 2) << 8 | byte(scan + 3));
+  return scan + 4 <= text.size() && byte(scan) == 0xff && text.find("\xff\xd9", scan) == text.npos;
 }
 
 std::string pixels(int width, int height) { return std::to_string(width) + " x " + std::to_string(height) + " pixels"; }
@@ -102,7 +103,7 @@ Result<std::vector<ImageFolder::NumberedImage>> ImageFolder::list(const std::fil
   std::vector<NumberedImage> images;
   for (const int group = counting_group(paths); const auto& image : paths) {
     const std::string digits = digits_in(image, group);
-    if (digits.empty() || digits.size() > kMaxDigits) {
+    if (digits.empty() || digits.size() > 18) {  // 18 fit in 64 bits
       return Error{image.string() + ": its number has " + std::to_string(digits.size()) +
                    " digits, expected 1 to 18; number the images by frames"};
     }

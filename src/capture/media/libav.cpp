@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstring>
 #include <mutex>
-#include <vector>
 
 namespace wisp {
 namespace {
@@ -55,9 +54,7 @@ Result<FormatOwner> open_media(const std::filesystem::path& path) {
   const std::string name = path.string();
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) return Error{name + ": no such file; check the path"};
-  if (std::filesystem::is_directory(path, ignored)) {
-    return Error{name + ": found a folder, expected a media file"};
-  }
+  if (std::filesystem::is_directory(path, ignored)) return Error{name + ": found a folder, expected a media file"};
   if (!std::filesystem::is_regular_file(path, ignored)) {
     return Error{name + ": is no plain file but a device or a pipe, expected a media file"};
   }
@@ -93,23 +90,46 @@ double end_of(const AVFormatContext& format, const AVPacket& packet) {
   return packet.pts == AV_NOPTS_VALUE ? 0 : static_cast<double>(packet.pts + packet.duration) * tick - start;
 }
 
+int PacketReader::next(AVFormatContext* format, AVPacket* packet) {
+  const int code = with_memory(av_read_frame, format, packet);
+  if (code < 0 || (format->iformat->flags & AVFMT_TS_DISCONT) == 0 || packet->dts == AV_NOPTS_VALUE) return code;
+  const AVStream& stream = *format->streams[packet->stream_index];
+  const AVMediaType type = stream.codecpar->codec_type;
+  if (type != AVMEDIA_TYPE_VIDEO && type != AVMEDIA_TYPE_AUDIO) return code;
+  tracks_.resize(format->nb_streams);
+  Track& track = tracks_[static_cast<std::size_t>(packet->stream_index)];
+  const double tick = av_q2d(stream.time_base), decoded = static_cast<double>(packet->dts) * tick;
+  const double begin = packet->pts == AV_NOPTS_VALUE ? decoded : static_cast<double>(packet->pts) * tick;
+  const bool joined = decoded < track.last - 0.5;  // s: smaller steps back are errors of a muxer
+  if (joined && ++track.part == shifts_.size()) shifts_.push_back(track.end - begin);
+  const double shift = shifts_[track.part];
+  track.last = decoded;
+  track.end = std::max(track.end, begin + shift + static_cast<double>(packet->duration) * tick);
+  packet->dts += std::llround(shift / tick);
+  if (packet->pts != AV_NOPTS_VALUE) packet->pts += std::llround(shift / tick);
+  return code;
+}
+
 void read_alone(AVFormatContext& format, int track) {
-  if (format.streams[track]->duration == AV_NOPTS_VALUE) return;
+  const bool joined = (format.iformat->flags & AVFMT_TS_DISCONT) != 0;
+  if (joined || format.streams[track]->duration == AV_NOPTS_VALUE) return;
   for (unsigned k = 0; k < format.nb_streams; ++k) {
     if (static_cast<int>(k) != track) format.streams[k]->discard = AVDISCARD_ALL;
   }
 }
 
 bool is_truncated(const AVFormatContext& format, int track, double end) {
-  constexpr double kExact = 0.95, kSlack = 0.1;  // share; s: tolerances of the stated duration
-  return end < kExact * stated_seconds(format, *format.streams[track]) - kSlack;
+  return end < 0.95 * stated_seconds(format, *format.streams[track]) - 0.1;  // tolerances: 5 % and 0.1 s
 }
 
 Result<CodecOwner> open_decoder(const std::filesystem::path& path, const AVStream& track, int threads) {
   const AVCodec* codec = avcodec_find_decoder(track.codecpar->codec_id);
   const std::string coded = avcodec_get_name(track.codecpar->codec_id);
+  const bool sound = track.codecpar->codec_type == AVMEDIA_TYPE_AUDIO;
+  const std::string cure = sound ? "; convert the sound to AAC, or leave it out" : "; convert it to H.264";
   if (codec == nullptr) {
-    return Error{path.string() + ": coded as " + coded + ", which this FFmpeg cannot decode; convert it to H.264"};
+    return Error{path.string() + (sound ? ": its sound is coded as " : ": coded as ") + coded +
+                 ", which this FFmpeg cannot decode" + cure};
   }
   CodecOwner context(avcodec_alloc_context3(codec));
   if (!context || avcodec_parameters_to_context(context.get(), track.codecpar) < 0) {
@@ -119,8 +139,7 @@ Result<CodecOwner> open_decoder(const std::filesystem::path& path, const AVStrea
   context->max_pixels = kMaxFilmPixels;
   context->pkt_timebase = track.time_base;
   if (const int code = avcodec_open2(context.get(), codec, nullptr); code < 0) {
-    return Error{path.string() + ": the decoder for " + coded + " does not start (" + libav_message(code) +
-                 "); convert it to H.264"};
+    return Error{path.string() + ": the decoder for " + coded + " does not start (" + libav_message(code) + ")" + cure};
   }
   return context;
 }

@@ -12,11 +12,13 @@ extern "C" {
 }
 
 #include <cerrno>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "wisp/base/result.hpp"
 
@@ -72,9 +74,25 @@ Result<FormatOwner> open_media(const std::filesystem::path& path);
 /// Returns the stated duration of a track, else of the file (its longest track), in seconds; 0: none is stated.
 double stated_seconds(const AVFormatContext& format, const AVStream& track);
 
-/// Discards packets of other tracks, unless the track states no duration: is_truncated() then compares the end of all
-/// packets with the file's duration.
+/// Discards packets of other tracks, unless the track states no duration, when is_truncated() compares the end of all
+/// packets with the file's duration, or its parts may have been joined, for which PacketReader needs all tracks.
 void read_alone(AVFormatContext& format, int track);
+
+/// Reads packets in order. In files joined by `cat` (MPEG, Ogg), each part has its own times: at the first track whose
+/// times jump back, that track continues at its end, and all tracks of the part are shifted by as much.
+class PacketReader {
+ public:
+  /// Reads the next packet as av_read_frame() does; returns its code.
+  int next(AVFormatContext* format, AVPacket* packet);
+
+ private:
+  struct Track {
+    double last = -HUGE_VAL, end = 0;  // stated decoding time of the last packet; end, shifted; seconds
+    std::size_t part = 0;
+  };
+  std::vector<Track> tracks_;
+  std::vector<double> shifts_{0};  // of each part, seconds
+};
 
 /// End of a packet, in seconds after the file's beginning; 0 where its time is unknown.
 double end_of(const AVFormatContext& format, const AVPacket& packet);

@@ -54,6 +54,7 @@ bool start_resampler(SoundTrack& track) {
   const int code = with_memory(swr_alloc_set_opts2, &raw, &frame.ch_layout, AV_SAMPLE_FMT_FLT, frame.sample_rate,
                                &frame.ch_layout, format, frame.sample_rate, 0, nullptr);
   track.resampler.reset(raw);
+  track.info.rate_hz = frame.sample_rate;
   return code >= 0 && with_memory(swr_init, raw) >= 0;
 }
 
@@ -61,7 +62,8 @@ bool start_resampler(SoundTrack& track) {
 bool hand_out(SoundTrack& track, const SoundBlock& block) {
   const AVFrame& frame = *track.frame;
   if (!track.resampler && !start_resampler(track)) return false;
-  if (frame.ch_layout.nb_channels != track.info.channels) return true;  // ignores a block of another format
+  const bool same = frame.ch_layout.nb_channels == track.info.channels && frame.sample_rate == track.info.rate_hz;
+  if (!same) return true;  // ignores a block of another format
   take_time(track);
   track.samples.resize(static_cast<std::size_t>(frame.nb_samples) * track.info.channels);
   std::uint8_t* out[1] = {reinterpret_cast<std::uint8_t*>(track.samples.data())};
@@ -86,7 +88,7 @@ bool drain(SoundTrack& track, const SoundBlock& block) {
 
 void decode_all(SoundTrack& track, const SoundBlock& block) {
   double end = 0;
-  while (with_memory(av_read_frame, track.format.get(), track.packet.get()) >= 0) {
+  for (PacketReader packets; packets.next(track.format.get(), track.packet.get()) >= 0;) {
     end = std::max(end, end_of(*track.format, *track.packet));
     if (track.packet->stream_index == track.track) {
       track.info.cut = (track.packet->flags & AV_PKT_FLAG_CORRUPT) != 0;

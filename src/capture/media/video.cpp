@@ -24,15 +24,13 @@ Result<VideoReader> VideoReader::open(const std::filesystem::path& path, const V
     return Error{path.string() + ": found frames " + std::to_string(options.frames->first) + ":" +
                  std::to_string(options.frames->last) + ", expected A:B with 1 <= A <= B"};
   }
+  const auto reader_of = [](auto clip) -> Result<VideoReader> {
+    if (!clip) return clip.error();
+    return VideoReader(std::make_unique<Source>(std::move(clip).value()));
+  };
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
-    auto folder = ImageFolder::open(path, options);
-    if (!folder) return folder.error();
-    return VideoReader(std::make_unique<Source>(std::move(folder).value()));
-  }
-  auto file = VideoFile::open(path, options);
-  if (!file) return file.error();
-  return VideoReader(std::make_unique<Source>(std::move(file).value()));
+  if (std::filesystem::is_directory(path, ignored)) return reader_of(ImageFolder::open(path, options));
+  return reader_of(VideoFile::open(path, options));
 }
 
 const VideoInfo& VideoReader::info() const {

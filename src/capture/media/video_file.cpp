@@ -24,7 +24,7 @@ std::vector<double> frame_times(const std::filesystem::path& path, int track) {
   if (!format) return times;
   const double tick = av_q2d((*format)->streams[track]->time_base);
   const PacketOwner packet(av_packet_alloc());
-  while (with_memory(av_read_frame, format->get(), packet.get()) >= 0) {
+  for (PacketReader packets; packets.next(format->get(), packet.get()) >= 0;) {
     const bool shown = packet->stream_index == track && (packet->flags & AV_PKT_FLAG_DISCARD) == 0;
     if (shown && packet->pts != AV_NOPTS_VALUE) times.push_back(static_cast<double>(packet->pts) * tick);
     av_packet_unref(packet.get());
@@ -96,9 +96,7 @@ std::int64_t cut_out(const AVFormatContext& format, const AVStream& track) {
   auto& indexed = const_cast<AVStream&>(track);
   const int listed = avformat_index_get_entries_count(&track);
   std::int64_t shown = 0;
-  for (int k = 0; k < listed; ++k) {
-    shown += (avformat_index_get_entry(&indexed, k)->flags & AVINDEX_DISCARD_FRAME) == 0;
-  }
+  for (int k = 0; k < listed; ++k) shown += (avformat_index_get_entry(&indexed, k)->flags & AVINDEX_DISCARD_FRAME) == 0;
   return listed > 0 && shown < track.nb_frames ? track.nb_frames - shown : 0;
 }
 
@@ -117,7 +115,8 @@ Result<VideoFile> VideoFile::open(const std::filesystem::path& path, const Video
   if (!format) return format.error();
   file.format_ = std::move(format).value();
   file.track_ = av_find_best_stream(file.format_.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
-  if (file.track_ < 0) return Error{path.string() + ": found no video track, expected one; give a video file"};
+  const bool cover = file.track_ >= 0 && file.format_->streams[file.track_]->disposition & AV_DISPOSITION_ATTACHED_PIC;
+  if (file.track_ < 0 || cover) return Error{path.string() + ": found no video track, expected one; give a video file"};
   const AVStream& track = *file.format_->streams[file.track_];
   auto codec = open_decoder(path, track, options.threads);
   if (!codec) return codec.error();
@@ -148,7 +147,7 @@ Result<VideoFile> VideoFile::open(const std::filesystem::path& path, const Video
 // Sends one packet of the track to the decoder. Returns false at the end of the file or at a read error.
 bool VideoFile::send_packet() {
   while (true) {
-    const int code = with_memory(av_read_frame, format_.get(), packet_.get());
+    const int code = packets_.next(format_.get(), packet_.get());
     if (code < 0) {
       read_error_ = code != AVERROR_EOF;
       with_memory(avcodec_send_packet, codec_.get(), nullptr);
@@ -190,8 +189,8 @@ std::int64_t VideoFile::place_on_grid() {
   if (grid_->last() < 0 && tick != AV_NOPTS_VALUE && start != AV_NOPTS_VALUE) {
     info_.begin = static_cast<double>(tick - start) * seconds_per_tick_;
   }
-  if (tick == AV_NOPTS_VALUE || options_.rate_hz > 0) return grid_->follow();
-  return grid_->place(static_cast<double>(tick) * seconds_per_tick_);
+  if (tick == AV_NOPTS_VALUE) return grid_->follow();
+  return grid_->place(static_cast<double>(tick) * seconds_per_tick_ / info_.speed);
 }
 
 Result<std::optional<VideoFrame>> VideoFile::next() {
@@ -200,7 +199,11 @@ Result<std::optional<VideoFrame>> VideoFile::next() {
     const std::int64_t index = place_on_grid();
     if (options_.frames && index + 1 < options_.frames->first) continue;
     if (options_.frames && index + 1 > options_.frames->last) return std::optional<VideoFrame>();
-    shortened_ = grid_->shortened();
+    if (!holes_before_) {
+      holes_before_ = grid_->shortened();
+      info_.begin += grid_->removed() * info_.speed;
+    }
+    shortened_ = grid_->shortened() - *holes_before_;
     auto picture = pictures_.view(*frame_);
     if (!picture) return Error{path_.string() + ": " + picture.error().message};
     return std::optional<VideoFrame>(VideoFrame{*picture, index});

@@ -96,6 +96,7 @@ class VideoFile {
   VideoInfo info_;
   FormatOwner format_;
   CodecOwner codec_;
+  PacketReader packets_;
   PacketOwner packet_;
   FrameOwner frame_;
   FramePictures pictures_;
@@ -107,7 +108,8 @@ class VideoFile {
   std::int64_t decoded_ = 0;
   double end_ = 0;  // end of the packets read, of any track, seconds after the file's beginning
   std::optional<FrameGrid> grid_;
-  int shortened_ = 0;  // number of gaps shortened up to the last frame returned by next()
+  std::optional<int> holes_before_;  // number of gaps shortened before the first frame returned by next()
+  int shortened_ = 0;                // and from there up to the last one
   std::int64_t broken_ = 0;
 };
 

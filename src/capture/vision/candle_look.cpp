@@ -27,10 +27,6 @@ std::vector<double> profile(std::span<const Picture> pictures, PixelChannel chan
   return sums;
 }
 
-double mean_of(const std::vector<double>& levels, std::size_t begin, std::size_t end) {
-  return mean(std::span(levels).subspan(begin, end - begin));
-}
-
 }  // namespace
 
 std::optional<CandleLook> look_of_candle(std::span<const Picture> pictures, const Region& flame) {
@@ -53,8 +49,10 @@ std::optional<CandleLook> look_of_candle(std::span<const Picture> pictures, cons
   if (open || look.width < kNarrowest || look.width > kWidest) return std::nullopt;
   const std::size_t rim = (end - begin) / 4;
   const PixelChannel colours[] = {PixelChannel::kRed, PixelChannel::kGreen, PixelChannel::kBlue};
-  for (std::size_t k = 0; k < 3; ++k)
-    look.rgb[k] = mean_of(profile(pictures, colours[k], strip), begin + rim, end - rim);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::vector<double> sums = profile(pictures, colours[k], strip);
+    look.rgb[k] = mean(std::span(sums).subspan(begin + rim, end - begin - 2 * rim));
+  }
   return look;
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/statistics.hpp"
 #include "base/verdict.hpp"
+#include "capture/vision/survey.hpp"
 
 namespace wisp {
 namespace {
@@ -17,11 +18,10 @@ constexpr double kMaxIsNew = 0.4;           // maximum share of new light in a s
 constexpr double kMinTotalLight = 3 * 255;  // minimum light, summed over all points: less is a spark
 constexpr int kFlat = 250;                  // level of 255 from which a point counts as saturated
 
-// Returns the correlation of two pictures' blocks; 1 if either is nearly uniform, as a room before a candle is lit.
+// Returns the correlation of two pictures' blocks; 1 if either deviates by less than 6 levels, as a dark room.
 double likeness(const std::vector<double>& a, const std::vector<double>& b) {
-  constexpr double kMinSpread = 6;  // levels
   const double spread_a = deviation(a), spread_b = deviation(b);
-  if (std::min(spread_a, spread_b) < kMinSpread) return 1;
+  if (std::min(spread_a, spread_b) < 6) return 1;
   const double products = std::inner_product(a.begin(), a.end(), b.begin(), 0.0) / static_cast<double>(a.size());
   return (products - mean(a) * mean(b)) / (spread_a * spread_b);
 }
@@ -29,9 +29,8 @@ double likeness(const std::vector<double>& a, const std::vector<double>& b) {
 }  // namespace
 
 double step_between(const std::vector<double>& a, const std::vector<double>& b) {
-  constexpr int kMaxStep = 8;
   constexpr double kExplains = 0.7, kMinDifference = 0.5;  // of the difference after a shift: maximum; before: minimum
-  const int size = static_cast<int>(a.size()), reach = std::min(kMaxStep, size / 2);
+  const int size = static_cast<int>(a.size()), reach = std::min(8, size / 2);
   std::vector<double> differs;
   for (int by = -reach; by <= reach; ++by) {
     double sum = 0;
@@ -81,9 +80,8 @@ void FilmLook::look(const Picture& picture) {
 
 // A cut lies between two consecutive pictures that correlate far less than is usual in the film.
 FilmFacts FilmLook::facts() const {
-  constexpr double kMinCut = 0.5, kBeyondOthers = 3;
   FilmFacts out{.pictures = flat_.size()};
-  const double cut = std::max(kMinCut, kBeyondOthers * median(changes_));
+  const double cut = std::max(0.5, 3 * median(changes_));
   for (std::size_t k = 0; k < changes_.size(); ++k) {
     if (changes_[k] > cut) out.cuts.push_back(change_rows_[k]);
   }

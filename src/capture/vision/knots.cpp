@@ -54,11 +54,6 @@ std::vector<double> spread(const Density& bend, int points, double even, double 
   return clamped_knots(interior);
 }
 
-constexpr int kPaceRounds = 3;
-
-// Misfit of a curve that intersects itself (a loop at a sharp tip or the base): played with noise, it would even more.
-constexpr double kFolded = 1;
-
 double misfit(const EdgeCloud& cloud, std::span<const double> residuals) {
   double area = cloud.left_out;
   for (std::size_t k = 1; k < residuals.size(); ++k) {
@@ -106,7 +101,7 @@ CurveShape fit_pace(std::span<const EdgeCloud> clouds, std::span<const double> k
   OutlineTracker tracker(knots);
   CurveShape best{{knots.begin(), knots.end()}, even_pace(), 1e30, {}};
   std::vector<double> pace = best.pace;
-  for (int round = 0; round < kPaceRounds; ++round) {
+  for (int round = 0; round < 3; ++round) {
     PaceMeasure measure;
     double mean = 0;
     std::vector<double> misfits;
@@ -115,9 +110,9 @@ CurveShape fit_pace(std::span<const EdgeCloud> clouds, std::span<const double> k
       for (double& s : paced.s) s = at_pace(pace, s);
       tracker.forget();
       const OutlineEstimate& outline = tracker.update(paced);
-      misfits.push_back(crosses_itself(curve_polyline(tracker.table(), outline.mean, 100))
-                            ? kFolded
-                            : misfit(cloud, tracker.residuals()));
+      // A curve that intersects itself (a loop at a sharp tip or the base) does so even more when played with noise.
+      const bool folded = crosses_itself(curve_polyline(tracker.table(), outline.mean, 100));
+      misfits.push_back(folded ? 1 : misfit(cloud, tracker.residuals()));
       mean += misfits.back() / static_cast<double>(clouds.size());
       measure.add(cloud.s, tracker.places());
     }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <string>
 
@@ -19,7 +18,6 @@ constexpr double kDuplicateMost = 0.5;    // grey levels of change above which a
 constexpr std::size_t kNeighbours = 4;    // frames compared on each side; minimum length of a frozen stretch
 constexpr double kFrozenMost = 0.1;       // maximum change of a frame in a frozen stretch, grey levels
 constexpr double kFrozenUsual = 0.02;     // maximum median change in a stretch: coding corrects repeats once or twice
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 enum class Fate : std::uint8_t { kKept, kDuplicate, kFilled, kFade, kNothing, kLost };
 
@@ -220,7 +218,7 @@ void write_channels(const std::vector<Fate>& fate, const std::vector<double>& co
     Channel channel{"p" + std::to_string(i / 2) + (i % 2 == 0 ? ".x" : ".y"), "px", Role::kOutput, {}};
     channel.samples.reserve(rows);
     for (std::size_t k = 0; k < rows; ++k)
-      channel.samples.push_back(present(fate[k]) ? controls[k * width + i] : kMissing);
+      channel.samples.push_back(present(fate[k]) ? controls[k * width + i] : std::nan(""));
     recording.channels.push_back(std::move(channel));
   }
   for (std::size_t axis = 0; axis < 2; ++axis) {

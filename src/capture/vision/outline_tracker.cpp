@@ -240,7 +240,6 @@ double OutlineTracker::misfit() const {
 // Projects and solves until the residuals stop falling. Where they rise, steps back and increases the weight of edge
 // points' positions along the curve (Levenberg's damping: along the normal alone, steps overshoot at sharp turns).
 void OutlineTracker::settle(const EdgeCloud& cloud) {
-  constexpr double kStillFalling = 0.98;
   project(cloud);
   measure_residuals(cloud);
   double best = misfit();
@@ -253,7 +252,7 @@ void OutlineTracker::settle(const EdgeCloud& cloud) {
     project(cloud);
     measure_residuals(cloud);
     const double now = misfit();
-    const bool settled = now > kStillFalling * best && now <= best;
+    const bool settled = now > 0.98 * best && now <= best;
     if (now < best) {
       best = now;
       best_mean_ = estimate_.mean;

@@ -8,9 +8,6 @@
 namespace wisp {
 namespace {
 
-constexpr std::uint64_t kAllDark = 0;
-constexpr std::uint64_t kAllBright = 0x0101010101010101ULL;
-
 // Whether `Words` consecutive 8-byte words all equal `eight`.
 template <std::size_t Words>
 bool all_same(const std::uint8_t* bright, std::uint64_t eight) {
@@ -23,7 +20,7 @@ bool all_same(const std::uint8_t* bright, std::uint64_t eight) {
 
 // First index at or after `x` whose byte differs from `same`; compares many bytes at a time.
 int end_of_stretch(const std::uint8_t* bright, int x, int width, std::uint8_t same) {
-  const std::uint64_t eight = same ? kAllBright : kAllDark;
+  const std::uint64_t eight = same ? 0x0101010101010101ULL : 0;
   while (x + 64 <= width && all_same<8>(bright + x, eight)) x += 64;
   while (x + 8 <= width && all_same<1>(bright + x, eight)) x += 8;
   while (x < width && bright[x] == same) ++x;

@@ -70,9 +70,7 @@ BasisWeights SplineTable::derivatives(double s) const {
   const Span& span = span_at(s);
   const double t = s - span.begin;
   BasisWeights out{span.first, {}};
-  for (int r = 0; r < 4; ++r) {
-    out.weight[r] = span.power[1][r] + t * (2 * span.power[2][r] + t * 3 * span.power[3][r]);
-  }
+  for (int r = 0; r < 4; ++r) out.weight[r] = span.power[1][r] + t * (2 * span.power[2][r] + t * 3 * span.power[3][r]);
   return out;
 }
 

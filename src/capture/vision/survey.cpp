@@ -261,10 +261,9 @@ Candidate refine(const Candidate& coarse, const std::vector<Candidate>& all, std
   return whole(found == fine.end() || !finer ? coarse : *found, fine, pictures, area, options.dark);
 }
 
-// Returns the share of an object that is saturated: in every channel about as bright as the channel's 90th percentile
-// within the object, as tone curves may saturate below white.
+// Returns the share of an object that is saturated: in every channel at most 5 levels (errors of coding) below the
+// channel's 90th percentile within the object, as tone curves may saturate below white.
 double flat_share(const Candidate& thing, std::span<const Picture> pictures, bool dark) {
-  constexpr int kCoding = 5;  // levels: coding errors in a uniform area
   const PictureGrid own = sample_grid(pictures, thing.channel, thing.home, kFineGrid, dark);
   std::vector<std::uint8_t> flat;  // flags of the object's points
   for (const PixelChannel channel : kChannels) {
@@ -279,7 +278,7 @@ double flat_share(const Candidate& thing, std::span<const Picture> pictures, boo
     }
     const int high = quantile(inside, 0.9);
     flat.resize(inside.size(), 1);
-    for (std::size_t k = 0; k < inside.size(); ++k) flat[k] &= inside[k] >= high - kCoding;
+    for (std::size_t k = 0; k < inside.size(); ++k) flat[k] &= inside[k] >= high - 5;
   }
   const auto count = static_cast<double>(std::count(flat.begin(), flat.end(), 1));
   return dark || flat.empty() ? 0 : count / static_cast<double>(flat.size());
@@ -311,9 +310,8 @@ Error nothing_found(bool dark) {
                (dark ? "a dark thing on a light ground" : "a bright thing on a dark ground")};
 }
 
-// Returns the end that moves less if the object is much wider than high; else the bottom.
+// Returns the end that moves less if the object is at least 1.5 times as wide as high; else the bottom.
 BaseSide steady_end(const Survey& survey) {
-  constexpr double kLying = 1.5;  // minimum width / height
   std::vector<double> left, right;
   double width = 0, height = 0;
   for (const Region& box : survey.seen) {
@@ -322,7 +320,7 @@ BaseSide steady_end(const Survey& survey) {
     width += box.width;
     height += box.height;
   }
-  if (width < kLying * height || deviation(left) == deviation(right)) return BaseSide::kBottom;
+  if (width < 1.5 * height || deviation(left) == deviation(right)) return BaseSide::kBottom;
   return deviation(left) < deviation(right) ? BaseSide::kLeft : BaseSide::kRight;
 }
 
@@ -364,7 +362,6 @@ Result<Survey> survey_scene(std::span<const Picture> pictures, const SurveyOptio
 }
 
 BaseSide base_side(const Survey& survey, const Region& area) {
-  constexpr double kMaxPictures = 0.5, kNearlyAll = 0.95;
   std::array<double, 4> cut{};
   for (const Region& box : survey.seen) {
     const double share = 1.0 / static_cast<double>(survey.seen.size());
@@ -373,9 +370,9 @@ BaseSide base_side(const Survey& survey, const Region& area) {
     if (box.y <= area.y) cut[static_cast<int>(BaseSide::kTop)] += share;
     if (box.right() >= area.right()) cut[static_cast<int>(BaseSide::kRight)] += share;
   }
-  if (cut[static_cast<int>(BaseSide::kBottom)] >= kMaxPictures) return BaseSide::kBottom;
+  if (cut[static_cast<int>(BaseSide::kBottom)] >= 0.5) return BaseSide::kBottom;
   for (const BaseSide side : {BaseSide::kLeft, BaseSide::kRight, BaseSide::kTop}) {
-    if (cut[static_cast<int>(side)] >= kNearlyAll) return side;
+    if (cut[static_cast<int>(side)] >= 0.95) return side;
   }
   return steady_end(survey);
 }

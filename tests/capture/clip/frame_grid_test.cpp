@@ -46,6 +46,7 @@ TEST(FrameGrid, ShortensAHoleOfMoreThanTwoSeconds) {
   FrameGrid grid(10);
   EXPECT_THAT(places(grid, {0, 0.1, 60, 60.1}), ElementsAre(0, 1, 22, 23));
   EXPECT_THAT(grid.warnings("clip"), ElementsAre("clip: 1 holes in time were shortened"));
+  EXPECT_NEAR(grid.removed(), 60 - 2.2, 1e-9);
 }
 
 TEST(FrameGrid, FollowsWhereATimeIsNotKnown) {

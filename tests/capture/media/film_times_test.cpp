@@ -128,6 +128,89 @@ TEST_F(FilmTimes, ARangeThatEndsAtAHoleHasNoHole) {
   }
 }
 
+// 5 s, of which the grid keeps 2: the puff at 8.2 s is at frame 80, which is the grid's 130.
+TEST_F(FilmTimes, ARangeAfterAHoleHasNoHoleAndItsOwnSound) {
+  film("flame.y4m");
+  sound("puff.wav", 8.2, 8.8, 10);
+  made(
+      "-i flame.y4m -i puff.wav -vf \"setpts='PTS+gte(N,60)*5/TB'\" -vsync passthrough -c:a pcm_s16le "
+      "-pix_fmt yuv420p hole.mkv");
+  FlameCapture options;
+  options.frames = FrameRange{111, 150};
+  options.wind = WindMeasure::kRms;
+  const auto clip = capture(folder_ / "hole.mkv", options);
+  ASSERT_TRUE(clip) << clip.error().message;
+  EXPECT_THAT(clip->report.verdict->reason, Not(HasSubstr("holes")));
+  EXPECT_NEAR(static_cast<double>(first_wind(*clip)), 20, 2);
+}
+
+TEST_F(FilmTimes, PartsThatAreJoinedByCatFollowOneAnotherWithTheirSound) {
+  film("flame.y4m");
+  sound("puff.wav", 3, 3.6);
+  made("-i flame.y4m -i puff.wav -c:a aac -pix_fmt yuv420p one.ts && cat one.ts one.ts >two.ts");
+  const Captured clip = captured("two.ts");
+  EXPECT_NEAR(static_cast<double>(clip.recording.rows()), 2 * kFrames, 3);
+  EXPECT_TRUE(clip.report.verdict->usable) << clip.report.verdict->reason;
+  const auto wind = samples_of(clip, "wind.rms");
+  EXPECT_NEAR(static_cast<double>(first_wind(clip)), 75, 2);
+  const auto again = std::find_if(wind.begin() + kFrames + 20, wind.end(), [](double x) { return x > 0.1; });
+  EXPECT_NEAR(static_cast<double>(again - wind.begin()), kFrames + 75, 4);
+}
+
+TEST_F(FilmTimes, SoundThatGoesOnAtAnotherRateIsMissing) {
+  film("flame.y4m");
+  sound("puff.wav", 3, 3.6);
+  made(
+      "-i flame.y4m -i puff.wav -c:a aac one.ts && ffmpeg -v error -i flame.y4m -i puff.wav -c:a aac -ar 48000 "
+      "other.ts && cat one.ts other.ts >two.ts");
+  const Captured clip = captured("two.ts");
+  EXPECT_NEAR(static_cast<double>(first_wind(clip)), 75, 2);
+  EXPECT_TRUE(std::isnan(samples_of(clip, "wind.rms")[kFrames + 50]));
+  EXPECT_THAT(clip.report.warnings, Contains(HasSubstr("the sound ends")));
+}
+
+TEST_F(FilmTimes, AnotherRateLeavesThePlacesOfLostFramesEmpty) {
+  film("flame.y4m");
+  made("-i flame.y4m -vf \"select='not(between(n,40,44))'\" -vsync passthrough -pix_fmt yuv420p gap.mkv");
+  auto reader = VideoReader::open(folder_ / "gap.mkv", {.rate_hz = 2.0 * kRate, .frames = {}});
+  ASSERT_TRUE(reader) << reader.error().message;
+  const auto rows = places(*reader);
+  EXPECT_EQ(rows[39], 39);
+  EXPECT_EQ(rows[40], 45);
+}
+
+TEST_F(FilmTimes, TheBrightnessOfAFilmThatIsCutOffHasAWarning) {
+  film("flame.y4m");
+  made("-i flame.y4m -c:v mjpeg -pix_fmt yuvj420p film.avi");
+  std::filesystem::resize_file(folder_ / "film.avi", std::filesystem::file_size(folder_ / "film.avi") / 2);
+  std::vector<std::string> warnings;
+  EXPECT_TRUE(capture_brightness(folder_ / "film.avi", {}, {}, &warnings));
+  EXPECT_THAT(warnings, Contains(HasSubstr("cut off")));
+}
+
+TEST_F(FilmTimes, SoundThatCannotBeDecodedIsToldFromThePicture) {
+  film("flame.y4m");
+  sound("puff.wav", 1, 2);
+  made("-i flame.y4m -i puff.wav -c:a pcm_s16le -pix_fmt yuv420p film.mov");
+  std::fstream file(folder_ / "film.mov", std::ios::in | std::ios::out | std::ios::binary);
+  const std::string bytes(std::istreambuf_iterator<char>(file), {});
+  file.seekp(static_cast<std::streamoff>(bytes.rfind("sowt")));
+  file << "zzzz";
+  file.close();
+  EXPECT_THAT(capture(folder_ / "film.mov", FlameCapture()).error().message,
+              HasSubstr("its sound is coded as none, which this FFmpeg cannot decode; convert the sound to AAC"));
+}
+
+TEST_F(FilmTimes, TheCoverOfASongIsNoFilm) {
+  film("flame.y4m");
+  sound("puff.wav", 1, 2);
+  made(
+      "-i puff.wav -i flame.y4m -map 0 -map 1 -frames:v 1 -c:a aac -c:v png -pix_fmt gray -disposition:v attached_pic "
+      "song.m4a");
+  EXPECT_THAT(capture(folder_ / "song.m4a", FlameCapture()).error().message, HasSubstr("found no video track"));
+  EXPECT_TRUE(hear_wind(folder_ / "song.m4a", kRate));
+}
+
 TEST_F(FilmTimes, AFilmMostlyWithoutItsSoundIsNotUsable) {
   film("flame.y4m");
   sound("puff.wav", 0.3, 0.6, 1);

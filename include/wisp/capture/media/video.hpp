@@ -33,7 +33,8 @@ struct VideoInfo {
   std::int64_t frames = 0;  ///< number of frames as stated, or estimated from the duration; 0: unknown
   bool images = false;      ///< a folder of images
   bool has_sound = false;   ///< the clip has a sound track (it may be silent)
-  double begin = 0;         ///< first decoded frame's time after the video track's start, s; 0 before the first next()
+  double begin = 0;         ///< first decoded frame's time after the video track's start, plus the time that gaps
+                            ///< before the range were shortened by, s; 0 before the first next()
   double speed = 1;         ///< rate_hz divided by the file's own rate; the sound is played faster by this factor
 };
 

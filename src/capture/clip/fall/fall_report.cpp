@@ -14,7 +14,6 @@ constexpr double kMaxShake = 0.01;    // maximum shake, share of the height: twi
 constexpr std::size_t kMinFalls = 3;  // minimum number of falls; learning checks whether segments suffice
 constexpr std::size_t kGoodFalls = 20;
 constexpr double kMinWhole = 0.8;   // minimum share of complete falls: below it, falls that stray are under-represented
-constexpr double kMaxFilled = 0.2;  // share of interpolated rows above which a warning is given
 constexpr double kLong = 1.8;       // minimum median aspect for attitude to be measured
 constexpr double kMaxShort = 0.25;  // maximum share of rows below kRound for attitude to be measured
 constexpr double kJerk = 0.52;      // rad per frame: a larger change of the turning rate counts as a jump of the axis
@@ -52,8 +51,7 @@ std::string cut_sentence(const std::array<std::size_t, 5>& count) {
   if (of(Cut::kSide) == most) {
     return "cut by the picture's sides, at least " + number +
            ", so that what is left strays less than it does; film from further away, or hold the camera across, so "
-           "that "
-           "all of every fall is in view";
+           "that all of every fall is in view";
   }
   if (of(Cut::kLost) == most) {
     return "lost from view in the air, at least " + number +
@@ -149,7 +147,7 @@ ReportVerdict verdict_on(const Falls& found, const Wall& wall) {
 
 std::optional<std::string> filled_warning(const Facts& facts) {
   const double share = static_cast<double>(facts.filled) / static_cast<double>(facts.rows);
-  if (share <= kMaxFilled) return std::nullopt;
+  if (share <= 0.2) return std::nullopt;
   return percent(share) +
          " of the rows were interpolated: the film repeats or loses frames, or the thing is as bright as the wall";
 }
@@ -157,18 +155,14 @@ std::optional<std::string> filled_warning(const Facts& facts) {
 ReportSection frames_section(const std::vector<Frame>& frames, std::size_t repeated, const Wall& wall, double rate_hz) {
   const auto lost =
       static_cast<std::size_t>(std::count_if(frames.begin(), frames.end(), [](const auto& f) { return f.empty(); }));
+  const double shake = wall.shake / wall.height;
   return {"Frames",
           {{"frames", frames.size(), "frames", ""},
            {"lost", lost, "lost", "", {}, "frames that the film has not"},
            {"duplicates", repeated, "duplicates", "", {}, "frames that repeat the one before"},
            {"rate_hz", rate_hz, "rate", "frames a second"},
            {"noise", wall.noise, "noise", "grey levels", {}, "of the wall; below 2 is good"},
-           {"shake",
-            wall.shake / wall.height,
-            "shakes by",
-            "",
-            {},
-            "share of the picture's height; 0 too before a wall without marks"},
+           {"shake", shake, "shakes by", "", {}, "share of the picture's height; 0 too before a wall without marks"},
            {"unsteady", wall.unsteady, "changing", "", {}, "share of the picture that changes all the time"}}};
 }
 

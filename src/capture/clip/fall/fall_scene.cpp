@@ -17,9 +17,7 @@ constexpr float kMinGround = 16;         // grey levels: minimum brightness of p
 constexpr float kMinDifference = 8;      // grey levels: minimum tolerance, above coding noise
 constexpr float kSigmas = 5;             // tolerance in standard deviations
 constexpr double kUnsteady = 5;          // grey levels: a pixel that deviates by more in 30 % of the frames is unsteady
-constexpr double kMoments = 0.7;         // quantile over the frames that is compared with kUnsteady
-constexpr float kMadToSigma = 1.4826F;
-constexpr int kMinPixels = 4;     // minimum size of an object in pixels beyond the tolerance
+constexpr int kMinPixels = 4;            // minimum size of an object in pixels beyond the tolerance
 constexpr double kTypical = 0.9;  // an object's contrast is this quantile of its pixels' differences: edges differ less
 constexpr double kShadow = 0.35;  // share of the contrast below which a pixel is shadow or blur
 constexpr double kPixelVariance = 1.0 / 12;
@@ -145,13 +143,11 @@ Wall wall_of(std::span<const Frame> frames, int width, int height) {
   for (std::size_t p = 0; p < pixels; ++p) {
     for (std::size_t k = 0; k < samples.size(); ++k)
       values[k] = std::abs((*samples[k])[p] - gains[k] * wall.brightness[p]);
-    sigmas[p] = kMadToSigma * quantile(values, 0.5);
-    unsteady += quantile(values, kMoments) > kUnsteady;
+    sigmas[p] = 1.4826F * quantile(values, 0.5);  // the median of a Gaussian's absolute values is 1 / 1.4826
+    unsteady += quantile(values, 0.7) > kUnsteady;
   }
   const float noise = quantile(sigmas, 0.5);
-  for (const float sigma : sigmas) {
-    wall.tolerance.push_back(std::max(kMinDifference, kSigmas * std::max(sigma, noise)));
-  }
+  for (const float sigma : sigmas) wall.tolerance.push_back(std::max(kMinDifference, kSigmas * std::max(sigma, noise)));
   wall.noise = noise;
   wall.unsteady = static_cast<double>(unsteady) / static_cast<double>(pixels);
   return wall;

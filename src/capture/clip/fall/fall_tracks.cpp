@@ -36,18 +36,11 @@ struct Track {
   std::vector<std::size_t> frames{};
   std::vector<Thing> things{};
 
-  // Mean speed over the last steps, reduced pixels a frame; 0 for a single row.
-  double speed(double Thing::*axis, std::size_t steps) const {
+  // Mean speed over the last steps (`first`: the first ones), reduced pixels a frame; 0 for a single row.
+  double speed(double Thing::*axis, std::size_t steps, bool first = false) const {
     if (things.size() < 2) return 0;
-    const std::size_t b = things.size() - 1, a = b - std::min(b, steps);
-    return (things[b].*axis - things[a].*axis) / static_cast<double>(frames[b] - frames[a]);
-  }
-
-  // Mean speed over the first steps, reduced pixels a frame; 0 for a single row.
-  double first_speed(double Thing::*axis, std::size_t steps) const {
-    if (things.size() < 2) return 0;
-    const std::size_t b = std::min(things.size() - 1, steps);
-    return (things[b].*axis - things[0].*axis) / static_cast<double>(frames[b] - frames[0]);
+    const std::size_t length = std::min(things.size() - 1, steps), a = first ? 0 : things.size() - 1 - length;
+    return (things[a + length].*axis - things[a].*axis) / static_cast<double>(frames[a + length] - frames[a]);
   }
 };
 
@@ -101,7 +94,7 @@ double seam(const Track& before, const Track& after, const Scale& scale) {
   if (after.frames.front() <= before.frames.front() || after.frames.back() <= before.frames.back()) return -1;
   const Thing &a = before.things.back(), &b = after.things.front();
   const auto apart = [&](double Thing::*axis) {
-    return b.*axis - a.*axis - gap / 2 * (before.speed(axis, kSteady) + after.first_speed(axis, kSteady));
+    return b.*axis - a.*axis - gap / 2 * (before.speed(axis, kSteady) + after.speed(axis, kSteady, true));
   };
   const double far = std::hypot(apart(&Thing::x), apart(&Thing::y));
   return far <= kJoinReach * scale.height ? far : -1;
@@ -197,7 +190,7 @@ bool crosses_side(const Thing& thing, double speed, const Scale& scale) {
 // Classifies how a fall was cut. `ground`: height (y) at which falls end.
 Cut cut_of(const Candidate& fall, double ground, std::size_t frames, const Scale& scale) {
   const Track& track = fall.track;
-  if (crosses_side(track.things.front(), -track.first_speed(&Thing::x, kSteady), scale)) return Cut::kSide;
+  if (crosses_side(track.things.front(), -track.speed(&Thing::x, kSteady, true), scale)) return Cut::kSide;
   if (fall.rests || fall.end() + kSteady >= frames || fall.bottom() >= ground - kNearEnd * scale.height)
     return Cut::kNo;
   return crosses_side(track.things.back(), track.speed(&Thing::x, kSteady), scale) ? Cut::kSide : Cut::kLost;

@@ -96,7 +96,6 @@ ReportSection wind_section(const std::vector<Blow>& blows, Recording& rings) {
   return {"Wind", {{"blows.count", blows.size(), "blows", ""}, symmetry_entry(rings)}, {std::move(table)}};
 }
 
-constexpr int kShuffles = 1000;
 // Maximum harmonics() of ones at the blows' directions: 0 for evenly distributed directions, at least 0.87 for two
 // directions, 4 for a single one.
 constexpr double kMaxDirectionPower = 0.95;
@@ -173,7 +172,7 @@ std::optional<std::array<double, 3>> asymmetry_of(std::span<const BlowAnswer> bl
     rest.push_back((blow.lean - lean - both / square * (blow.strength - strength)) / lean);
   const double seen = harmonics(blows, rest), lost = count / (count - 2);
   std::mt19937 generator(1);
-  for (int k = 0; k < kShuffles; ++k) {
+  for (int k = 0; k < 1000; ++k) {
     for (std::size_t left = n; left > 1; --left) std::swap(rest[left - 1], rest[generator() % left]);
     by_chance.push_back(lost * harmonics(blows, rest));
   }
