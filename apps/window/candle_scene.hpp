@@ -7,6 +7,7 @@
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "event.hpp"
@@ -53,12 +54,14 @@ class CandleScene {
 
   static constexpr int kMaxCandles = 12;
 
-  /// Sets the picture's size.
+  /// Sets the picture's size. Pointer and candles keep their places in it, and a drag goes on.
   void resize(int width, int height) {
-    width_ = width, height_ = height;
+    const Point scale{static_cast<float>(width) / static_cast<float>(std::exchange(width_, width)),
+                      static_cast<float>(height) / static_cast<float>(std::exchange(height_, height))};
+    for (Point* at : {&pointer_, &pressed_, &grip_}) *at = {scale.x * at->x, scale.y * at->y};
     wake_.leave();  // its last place is in the former picture's unit
     painter_ = std::make_unique<LiveFlames>(width, height, style_);
-    arrange();
+    arrange(scale);
   }
 
   /// Sets the wind over the whole scene; 1 is a strong gust to the right.
@@ -83,14 +86,11 @@ class CandleScene {
     if (turning_) turn((pointer_.x - pixel.x) / static_cast<float>(width_) * 3.1415927F);
     pointer_ = pixel;
     if (std::hypot(pixel.x - pressed_.x, pixel.y - pressed_.y) > kClickPixels) moved_ = true;  // no click
-    if (turning_) return wake_.leave();
     // The wind on a carried candle comes from the candle's own motion.
-    if (carried_) {
-      wake_.leave();
-    } else {
-      wake_.move({pixel.x / unit_, pixel.y / unit_});
-    }
+    if (turning_ || carried_) return wake_.leave();
+    wake_.move({pixel.x / unit_, pixel.y / unit_});
   }
+  void pointer_left() { wake_.leave(); }
   void pointer_pressed(Point pixel) {
     pointer_ = pressed_ = pixel;
     moved_ = false;
@@ -137,9 +137,7 @@ class CandleScene {
       bank_.set_inputs(candle.id, inputs);
     }
     bank_.advance(time);
-    for (Candle& candle : candles_) {
-      candle.smoke.blow(candle.wind, state_of(candle), bank_.step_time(), candle.scene);
-    }
+    for (Candle& candle : candles_) candle.smoke.blow(candle.wind, state_of(candle), bank_.step_time(), candle.scene);
   }
 
   void draw(Image& image) {
@@ -212,12 +210,14 @@ class CandleScene {
       Candle& candle = candles_.emplace_back();
       candle.id = bank_.spawn();
       candle.scene.seed = static_cast<std::uint64_t>(k) + 1;
+      candle.track.resize(kTrackSteps);
     }
     winds_.assign(kTrackSteps, 0.0F);
     polyline_.resize(2 * kPolylinePoints);
     resize(width_, height_);
   }
-  void arrange() {
+  // Puts the candles where they stand; `kept`: scale of the distances to which they were carried from there.
+  void arrange(Point kept = {}) {
     const FlameScene frame = framed(width_, height_);
     const int count = candles();
     const float spacing = 0.86F * static_cast<float>(width_) / static_cast<float>(count);
@@ -226,6 +226,7 @@ class CandleScene {
     for (int k = 0; k < count; ++k) {
       Candle& candle = candles_[static_cast<std::size_t>(k)];
       const float across = static_cast<float>(k) - 0.5F * static_cast<float>(count - 1);
+      const Point from = candle.home;
       candle.home = {frame.base.x + spacing * across, frame.base.y};
       // On a cake, candles form a ring: alternately behind and in front, evenly spaced across the picture.
       if (count > 1) {
@@ -235,11 +236,14 @@ class CandleScene {
         candle.home.x = frame.base.x + 0.5F * spacing * static_cast<float>(count) * (c * turn - s * deep);
         candle.home.y += std::min(kRingDepth * static_cast<float>(width_), 0.5F * unit_) * (s * turn + c * deep);
       }
-      candle.place = candle.home;
+      const auto moved = [&](Point at) {
+        return Point{candle.home.x + kept.x * (at.x - from.x), candle.home.y + kept.y * (at.y - from.y)};
+      };
+      candle.place = moved(candle.place);
+      for (Point& at : candle.track) at = moved(at);
       candle.scene.pixels_per_unit = unit_;
-      candle.track.assign(kTrackSteps, candle.home);
     }
-    carried_.reset();
+    if (kept == Point{}) carried_.reset();
   }
   void remember_wind(float seconds) {
     for (passed_ += seconds; passed_ >= kTrackStep; passed_ -= kTrackStep) {
@@ -274,17 +278,14 @@ class CandleScene {
     return wind - kWindPerSpeed * carried;
   }
   void carry(float seconds) {
-    for (int k = 0; k < candles(); ++k) {
-      Candle& candle = candles_[static_cast<std::size_t>(k)];
-      if (carried_ != k || !moved_) continue;
-      const Point to{
-          std::clamp(pointer_.x + grip_.x, 0.0F, static_cast<float>(width_)),
-          std::clamp(pointer_.y + grip_.y, 0.35F * static_cast<float>(height_), 0.97F * static_cast<float>(height_))};
-      // The candle follows the pointer with a short delay, as a hand would.
-      const float share = 1 - std::exp(-seconds / 0.03F);
-      candle.place = {candle.place.x + share * (to.x - candle.place.x),
-                      candle.place.y + share * (to.y - candle.place.y)};
-    }
+    if (!carried_ || !moved_) return;
+    Point& place = candles_[static_cast<std::size_t>(*carried_)].place;
+    const float tall = static_cast<float>(height_);
+    const Point to{std::clamp(pointer_.x + grip_.x, 0.0F, static_cast<float>(width_)),
+                   std::clamp(pointer_.y + grip_.y, 0.35F * tall, 0.97F * tall)};
+    // The candle follows the pointer with a short delay, as a hand would.
+    const float share = 1 - std::exp(-seconds / 0.03F);
+    place = {place.x + share * (to.x - place.x), place.y + share * (to.y - place.y)};
   }
   std::vector<Point> outline_of(const Candle& candle) {
     bank_.polyline(candle.id, polyline_);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <ctime>
 #include <fstream>
-#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -13,12 +12,6 @@ namespace wisp::window {
 namespace {
 
 constexpr const char* kWords = "key, down, up, move, press, release, click, drop, picture, unplug or close";
-
-std::optional<Point> place_in(std::istringstream& words) {
-  Point at;
-  if (words >> at.x >> at.y && std::isfinite(at.x) && std::isfinite(at.y)) return at;
-  return {};
-}
 
 // Parses one line; returns an empty list if its words are wrong.
 std::vector<std::variant<Event, PictureTaken>> meaning(const std::string& word, std::istringstream& words) {
@@ -41,12 +34,12 @@ std::vector<std::variant<Event, PictureTaken>> meaning(const std::string& word, 
     if (rest.find('/') != std::string::npos) return {};
     return {PictureTaken{rest}};
   }
-  const auto at = place_in(words);
-  if (!at) return {};
-  if (word == "move") return {Event{PointerMoved{*at}}};
-  if (word == "press") return {Event{PointerTurned{*at, true}}};
-  if (word == "release") return {Event{PointerTurned{*at, false}}};
-  if (word == "click") return {Event{PointerTurned{*at, true}}, Event{PointerTurned{*at, false}}};
+  Point at;
+  if (!(words >> at.x >> at.y) || !std::isfinite(at.x) || !std::isfinite(at.y)) return {};
+  if (word == "move") return {Event{PointerMoved{at}}};
+  if (word == "press") return {Event{PointerTurned{at, true}}};
+  if (word == "release") return {Event{PointerTurned{at, false}}};
+  if (word == "click") return {Event{PointerTurned{at, true}}, Event{PointerTurned{at, false}}};
   return {};
 }
 

@@ -59,6 +59,9 @@ struct PointerTurned {
   bool down = true;
 };
 
+/// The pointer left the picture, or the finger that moved it was lifted. Its next position is no motion.
+struct PointerLeft {};
+
 struct FileDropped {
   std::string path;
 };
@@ -68,7 +71,7 @@ struct MicrophoneLost {};
 
 struct Closed {};
 
-using Event = std::variant<KeyTurned, PointerMoved, PointerTurned, FileDropped, MicrophoneLost, Closed>;
+using Event = std::variant<KeyTurned, PointerMoved, PointerTurned, PointerLeft, FileDropped, MicrophoneLost, Closed>;
 
 /// Returns the exponential approach from `from` to `to` after `seconds`, with time constant `within`.
 inline float towards(float from, float to, float seconds, float within) {

@@ -69,6 +69,9 @@ class LeafScene {
     wake_.move({pixel.x / metre, -pixel.y / metre});
   }
 
+  void pointer_left() { wake_.leave(); }
+  void pointer_released(Point) {}
+
   /// Kicks up the leaves near the pixel.
   void pointer_pressed(Point pixel) {
     pointer_moved(pixel);

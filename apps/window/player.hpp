@@ -99,17 +99,16 @@ class Player {
                    },
                    [&](const PointerMoved& moved) {
                      const Point at = pixel_of(moved.at, image_);
-                     if (auto* candles = std::get_if<CandleScene>(&*scene_)) candles->pointer_moved(at);
-                     if (auto* leaves = std::get_if<LeafScene>(&*scene_)) leaves->pointer_moved(at);
+                     std::visit([&](auto& scene) { scene.pointer_moved(at); }, *scene_);
                    },
                    [&](const PointerTurned& turned) {
                      const Point at = pixel_of(turned.at, image_);
-                     if (auto* candles = std::get_if<CandleScene>(&*scene_)) {
-                       turned.down ? candles->pointer_pressed(at) : candles->pointer_released(at);
-                     }
-                     if (auto* leaves = std::get_if<LeafScene>(&*scene_); leaves && turned.down)
-                       leaves->pointer_pressed(at);
+                     const auto turn = [&](auto& scene) {
+                       turned.down ? scene.pointer_pressed(at) : scene.pointer_released(at);
+                     };
+                     std::visit(turn, *scene_);
                    },
+                   [&](const PointerLeft&) { std::visit([](auto& scene) { scene.pointer_left(); }, *scene_); },
                    [&](const FileDropped& dropped) { drop(dropped.path); },
                    [&](const MicrophoneLost&) {
                      ear_.close(EarState::kMissing);

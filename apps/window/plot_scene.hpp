@@ -36,6 +36,11 @@ class PlotScene {
   /// Sets every input relative to its trained range: 0 is the middle, −1 and 1 the ends. Clamped to ±1.5.
   void blow(float wind) { wind_ = wind; }
 
+  void pointer_moved(Point) {}
+  void pointer_left() {}
+  void pointer_pressed(Point) {}
+  void pointer_released(Point) {}
+
   void reset() {
     bank_.reset();
     for (auto* curves : {&inputs_, &outputs_}) {

@@ -243,11 +243,11 @@ class Window {
       case SDL_MOUSEBUTTONUP:
         return player_.handle(
             PointerTurned{share_of(event.button.x, event.button.y), event.type == SDL_MOUSEBUTTONDOWN});
+      case SDL_FINGERUP:
+        return player_.handle(PointerLeft{});
       case SDL_DROPFILE: {
         const std::unique_ptr<char, void (*)(void*)> file(event.drop.file, SDL_free);
-        player_.handle(FileDropped{file.get()});
-        SDL_SetWindowTitle(window_.get(), ("Wisp: " + player_.model_name()).c_str());
-        return;
+        return player_.handle(FileDropped{file.get()});
       }
       case SDL_AUDIODEVICEREMOVED:
         if (event.adevice.iscapture != 0 && microphone_.is(event.adevice.which)) {
@@ -259,16 +259,17 @@ class Window {
       case SDL_AUDIODEVICEADDED:
         if (event.adevice.iscapture != 0 && player_.ear().state() == EarState::kMissing) open_microphone();
         return;
-      case SDL_WINDOWEVENT:
-        if (event.window.event == SDL_WINDOWEVENT_SIZE_CHANGED) {
+      case SDL_WINDOWEVENT: {
+        const auto what = event.window.event;
+        if (what == SDL_WINDOWEVENT_SIZE_CHANGED) {
           max_pixels_ = kMaxPixels;
           fit_picture();
         }
-        if (event.window.event == SDL_WINDOWEVENT_MINIMIZED || event.window.event == SDL_WINDOWEVENT_HIDDEN)
-          hidden_ = true;
-        if (event.window.event == SDL_WINDOWEVENT_RESTORED || event.window.event == SDL_WINDOWEVENT_SHOWN)
-          hidden_ = false;
+        if (what == SDL_WINDOWEVENT_LEAVE) player_.handle(PointerLeft{});
+        if (what == SDL_WINDOWEVENT_MINIMIZED || what == SDL_WINDOWEVENT_HIDDEN) hidden_ = true;
+        if (what == SDL_WINDOWEVENT_RESTORED || what == SDL_WINDOWEVENT_SHOWN) hidden_ = false;
         return;
+      }
       default:
         return;
     }
@@ -277,6 +278,8 @@ class Window {
   void take_events() {
     SDL_Event event;
     while (SDL_PollEvent(&event) != 0) take(event);
+    const std::string title = "Wisp: " + player_.model_name();
+    if (title != SDL_GetWindowTitle(window_.get())) SDL_SetWindowTitle(window_.get(), title.c_str());
     if (player_.take_full_screen_request()) toggle_full_screen();
     if (!player_.take_microphone_request() || options_.sound) return;
     if (microphone_.is_open()) {

@@ -14,11 +14,9 @@ namespace wisp::drawing {
 struct DestroyCairo {
   void operator()(cairo_t* context) const { cairo_destroy(context); }
   void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
-  void operator()(cairo_pattern_t* pattern) const { cairo_pattern_destroy(pattern); }
 };
 using CairoContext = std::unique_ptr<cairo_t, DestroyCairo>;
 using CairoSurface = std::unique_ptr<cairo_surface_t, DestroyCairo>;
-using CairoPattern = std::unique_ptr<cairo_pattern_t, DestroyCairo>;
 
 /// Returns a surface over the image's own pixels, which must neither be freed nor move while the surface exists.
 CairoSurface surface_of(Image& image);

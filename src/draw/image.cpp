@@ -20,15 +20,11 @@ std::uint32_t premultiplied(Colour colour) {
          scaled(colour.blue);
 }
 
-[[maybe_unused]] bool valid_size(int width, int height) {
-  return width >= 1 && height >= 1 && width <= kLargestImageSide && height <= kLargestImageSide;
-}
-
 }  // namespace
 
 Image::Image(int width, int height, Colour fill)
     : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * height, premultiplied(fill)) {
-  assert(valid_size(width, height));
+  assert(width >= 1 && height >= 1 && width <= kLargestImageSide && height <= kLargestImageSide);
 }
 
 Image Image::from_rgb(std::span<const std::uint8_t> rgb, int width, int height, std::size_t row_bytes) {

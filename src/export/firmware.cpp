@@ -175,7 +175,7 @@ bool exporting::is_name(std::string_view name) {
 }
 
 std::string exporting::comment_text(std::string text) {
-  std::erase_if(text, [](char c) { return c == '*' || c == '/' || c == '"' || static_cast<unsigned char>(c) < 0x20; });
+  std::erase_if(text, [](char c) { return c == '*' || c == '"' || static_cast<unsigned char>(c) < 0x20; });
   return text;
 }
 

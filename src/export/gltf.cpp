@@ -210,7 +210,8 @@ Track body_track(const Take& take, std::size_t instance, Buffer& buffer) {
   std::vector<float> places, turns, times;
   const auto add = [&](double key, std::size_t frame, bool round) {
     const auto row = take.at(frame % take.frames, instance);
-    times.push_back(static_cast<float>(key / take.rate_hz));
+    const auto time = static_cast<float>(key / take.rate_hz);
+    times.push_back(times.empty() ? time : std::max(time, std::nextafter(times.back(), 1e30F)));  // glTF: increasing
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double place = row[axis] + (axis < 2 ? start.place[axis] : 0);
       places.push_back(static_cast<float>(place + (round ? travel[axis] : 0)));

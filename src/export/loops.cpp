@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 #include "wisp/run/chain_facet.hpp"
 
@@ -235,17 +236,19 @@ bool close_orbit(const Model& model, std::span<const std::size_t> mode, std::siz
   return false;
 }
 
-std::optional<WalkLoop> find_walk_loop(const Model& model, std::size_t frames, std::uint64_t seed,
-                                       const std::vector<float>& inputs) {
+Result<WalkLoop> find_walk_loop(const Model& model, std::size_t frames, std::uint64_t seed,
+                                const std::vector<float>& inputs, const Progress& progress) {
   const std::size_t length = frames + static_cast<std::size_t>(kSeconds * model.rate_hz);
   for (int round = 0; round < kMaxRounds; ++round) {
+    if (!go_on(progress, "searching for a loop", -1)) return Error{std::string(kStopped)};
     const std::uint64_t other = seed + 0x9e3779b97f4a7c15U * static_cast<std::uint64_t>(round);
     const auto walks = walk(model, length, other, inputs);
     if (const auto found = best_return(walks, model.outputs.size(), frames)) {
       return loop_of(*found, model.outputs.size(), frames);
     }
   }
-  return {};
+  return Error{"none of thousands of walks came back to where it was after exactly " + std::to_string(frames) +
+               " frames; ask for a few frames more or less, or a longer loop"};
 }
 
 }  // namespace wisp::exporting

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -64,10 +63,10 @@ struct WalkLoop {
 };
 
 /// Plays banks of one chain until an instance returns to a row of a segment after exactly `frames` steps, and rotates
-/// its walk evenly so that the frame after the last one has the attitude and the velocity of the first. Returns nothing
-/// if no walk returns. Precondition: the model is a valid chain with stored segments; inputs.size() ==
+/// its walk evenly so that the frame after the last one has the attitude and the velocity of the first. Errors: no walk
+/// returns; kStopped. Precondition: the model is a valid chain with stored segments; inputs.size() ==
 /// model.inputs.size().
-std::optional<WalkLoop> find_walk_loop(const Model& model, std::size_t frames, std::uint64_t seed,
-                                       const std::vector<float>& inputs);
+Result<WalkLoop> find_walk_loop(const Model& model, std::size_t frames, std::uint64_t seed,
+                                const std::vector<float>& inputs, const Progress& progress);
 
 }  // namespace wisp::exporting

@@ -55,9 +55,7 @@ StateSpace state_space_of(const ArxModel& arx) {
   const auto has_states = [&](std::size_t i) { return first[i + 1] > first[i]; };
   for (std::size_t i = 0; i < ny; ++i) {
     if (has_states(i)) s.c[i][first[i]] = 1;
-    for (std::size_t k = 0; k < nu; ++k) {
-      s.d[i][k] = lags_of_input(arx, static_cast<int>(i), static_cast<int>(k), 1)[0];
-    }
+    for (std::size_t k = 0; k < nu; ++k) s.d[i][k] = lags_of_input(arx, static_cast<int>(i), static_cast<int>(k), 1)[0];
   }
   for (std::size_t i = 0; i < ny; ++i) {
     const std::size_t lags = first[i + 1] - first[i];
@@ -134,6 +132,7 @@ for k = 1:@NU@
   G{k} = tf(num{k}, den{k}, Ts);
   without = den{k}(1:end - lead(k));
   p = roots(without);
+  if isscalar(without), Gc{k} = tf(num{k}, 1); continue, end  % a gain; Octave's d2c() takes none
   if any(real(p) <= 1e-9 & abs(imag(p)) < 1e-9)
     warning('wisp:continuous', 'input %d: a pole at 0 or left of it; Gc{%d} is empty: no continuous system with a zero-order hold has these samples', k, k);
     continue
@@ -155,7 +154,7 @@ def continuous_transfer(k):
     lead = transfer[k][2]
     num, den = np.array(transfer[k][0][lead:]), np.array(transfer[k][1][: len(transfer[k][1]) - lead])
     a = np.eye(len(den) - 1, k=1)
-    a[:, 0] = -den[1:]
+    a[:, :1] = -den[1:, None]  # of a gain: no rows
     b = (num - num[0] * den)[1:, None]
     return continuous(a, b, np.eye(1, len(a)), np.array([num[:1]])), lead * Ts
 

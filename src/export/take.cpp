@@ -19,26 +19,22 @@ constexpr int kMaxInstances = 1000;
 constexpr double kSettle = 4;  // seconds of play before the first frame
 
 Result<void> check(const Model& model, const TakeOptions& options) {
-  if (!(options.seconds > 0 && options.seconds <= kMaxSeconds)) {
+  if (!(options.seconds > 0 && options.seconds <= kMaxSeconds))
     return Error{"the length is " + std::to_string(options.seconds) + " s, expected above 0 and at most 3600 s"};
-  }
   const double frames = options.seconds * model.rate_hz;
   if (frames < 1) return Error{"the length is less than one frame of the model, expected at least 1"};
   if (options.loop && std::lround(frames) < 2) return Error{"the loop is a single frame, expected at least 2"};
-  if (options.instances < 1 || options.instances > kMaxInstances) {
+  if (options.instances < 1 || options.instances > kMaxInstances)
     return Error{"there are " + std::to_string(options.instances) + " instances, expected 1 to 1000"};
-  }
-  if (frames * options.instances * static_cast<double>(model.outputs.size()) > kMaxNumbers) {
+  if (frames * options.instances * static_cast<double>(model.outputs.size()) > kMaxNumbers)
     return Error{"the frames are more than 5e8 numbers; ask for fewer seconds or instances"};
-  }
   if (!options.schedule.empty() &&
       (options.loop || model.inputs.empty() || options.schedule.size() % model.inputs.size() != 0)) {
     return Error{"a schedule of inputs is for plays that do not loop, of models with inputs, in rows of all inputs"};
   }
-  if (options.inputs.size() > model.inputs.size()) {
+  if (options.inputs.size() > model.inputs.size())
     return Error{"there are " + std::to_string(options.inputs.size()) + " inputs, the model has " +
                  std::to_string(model.inputs.size())};
-  }
   return wisp::check(model);
 }
 
@@ -49,8 +45,8 @@ std::vector<float> inputs_of(const Model& model, const TakeOptions& options) {
 }
 
 Error went_out(double seconds) {
-  return {"the flame goes out after " + std::to_string(seconds) +
-          " s in that input; what is exported burns: ask for less"};
+  const std::string when = seconds > 0 ? "after " + std::to_string(seconds) + " s" : "by the first frame";
+  return {"the flame goes out " + when + " in that input; what is exported burns: ask for less"};
 }
 
 Result<Bank> settled_bank(const Model& model, const TakeOptions& options) {
@@ -171,16 +167,13 @@ Result<Take> shape_take(const Model& model, const ShapeComponents& shape, const 
   return taken;
 }
 
-Result<Take> walk_take(const Model& model, const TakeOptions& options, Take taken) {
+Result<Take> walk_take(const Model& model, const TakeOptions& options, Take taken, const Progress& progress) {
   const std::size_t width = taken.instances * taken.outputs;
   taken.values.resize(taken.frames * width);
   for (std::size_t k = 0; k < taken.instances; ++k) {
     const std::uint64_t seed = options.seed + 0xd1342543de82ef95U * k;  // neighbouring seeds share no instance
-    const auto loop = find_walk_loop(model, taken.frames, seed, inputs_of(model, options));
-    if (!loop) {
-      return Error{"none of thousands of walks came back to where it was after exactly " +
-                   std::to_string(taken.frames) + " frames; ask for a few frames more or less, or a longer loop"};
-    }
+    const auto loop = find_walk_loop(model, taken.frames, seed, inputs_of(model, options), progress);
+    if (!loop) return loop.error();
     taken.travel.push_back(loop->travel);
     for (std::size_t frame = 0; frame < taken.frames; ++frame) {
       std::copy_n(loop->rows.begin() + static_cast<std::ptrdiff_t>(frame * taken.outputs), taken.outputs,
@@ -192,7 +185,7 @@ Result<Take> walk_take(const Model& model, const TakeOptions& options, Take take
 
 }  // namespace
 
-Result<Take> take(const Model& plane, const TakeOptions& asked) {
+Result<Take> take(const Model& plane, const TakeOptions& asked, const Progress& progress) {
   if (auto ok = check(plane, asked); !ok) return ok.error();
   const auto round = asked.round ? in_the_round(plane) : Result<Model>(plane);
   const Model& model = round ? *round : plane;
@@ -207,7 +200,7 @@ Result<Take> take(const Model& plane, const TakeOptions& asked) {
   taken.outputs = model.outputs.size();
   taken.sides = is_in_the_round(model) ? 2 : 1;
   if (!options.loop) return plain_take(model, options, std::move(taken));
-  if (std::holds_alternative<ChainModel>(model.dynamics)) return walk_take(model, options, std::move(taken));
+  if (std::holds_alternative<ChainModel>(model.dynamics)) return walk_take(model, options, std::move(taken), progress);
   if (const auto* outline = std::get_if<OutlineView>(&model.view); outline && !outline->shape.empty()) {
     return shape_take(model, outline->shape, options, std::move(taken));
   }

@@ -23,7 +23,7 @@ inline std::string filled(std::string text, const std::vector<std::pair<std::str
 /// Returns whether the text is an identifier: letters, digits and _, no digit first. Keywords are not excluded.
 bool is_name(std::string_view name);
 
-/// Removes characters that would end a comment or a line: * / " and control characters.
+/// Removes characters that would end a comment, a quotation or a line: * " and control characters.
 std::string comment_text(std::string text);
 
 }  // namespace wisp::exporting

@@ -54,12 +54,8 @@ std::vector<double> clamped_knots(std::span<const double> interior) {
 bool valid_knots(std::span<const double> knots) {
   constexpr std::size_t kClamped = kSplineDegree + 1;
   if (knots.size() < 2 * kClamped) return false;
-  for (double knot : knots) {
-    if (!std::isfinite(knot)) return false;
-  }
-  for (std::size_t k = 1; k < knots.size(); ++k) {
-    if (knots[k] < knots[k - 1]) return false;
-  }
+  if (!std::all_of(knots.begin(), knots.end(), [](double knot) { return std::isfinite(knot); })) return false;
+  if (!std::is_sorted(knots.begin(), knots.end())) return false;
   for (std::size_t k = 0; k < kClamped; ++k) {
     if (knots[k] != 0.0 || knots[knots.size() - 1 - k] != 1.0) return false;
   }

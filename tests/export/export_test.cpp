@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #ifdef WISP_HAS_RLOTTIE
@@ -167,6 +169,23 @@ TEST(Gltf, LeavesOfALoopBeginApartAndTheSceneReturns) {
     }
     begins.push_back({places[0], places[1], places[2]});
   }
+}
+
+TEST(Gltf, KeysOfALongLoopAreAtIncreasingTimes) {
+  constexpr std::size_t kFrames = 400'000;  // single precision rounds the key before the return to the next key's time
+  const Take taken{.rate_hz = 1,
+                   .loop = true,
+                   .frames = kFrames,
+                   .instances = 2,
+                   .outputs = 7,
+                   .values = std::vector<float>(kFrames * 2 * 7, 1.0F),
+                   .travel = {{0, 0, -1}, {0, 0, -1}}};
+  const auto bytes = gltf_bytes(leaf(), taken);
+  ASSERT_TRUE(bytes);
+  const Opened file = opened(*bytes);
+  const auto times = file.numbers(file.json["animations"][0]["samplers"][0]["input"].get<std::size_t>());
+  ASSERT_EQ(times.size(), kFrames + 2);
+  EXPECT_EQ(std::adjacent_find(times.begin(), times.end(), std::greater_equal<float>()), times.end());
 }
 
 // As a shader reads it: the upper bytes in the first rows, the lower ones in the second.

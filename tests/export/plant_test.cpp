@@ -195,6 +195,18 @@ TEST_F(Plant, APoleAtOrLeftOfZeroHasNoContinuousSystemAndIsWarnedOf) {
   }
 }
 
+TEST_F(Plant, AGainIsItsOwnContinuousSystem) {
+  const Model gains = plant(1, {0}, {1, 1}, {0, 2}, {{2.0, 3.0}});  // the first input acts at once, and only then
+  if (has_octave()) {
+    write(gains, PlantLanguage::kOctave, "plant.m");
+    EXPECT_TRUE(octave("disp(dcgain(Gc{1}))\n").ends_with("2\n"));
+  }
+  if (has_scipy()) {
+    write(gains, PlantLanguage::kPython, "plant.py");
+    EXPECT_EQ(python("s, dead = continuous_transfer(0)\nnear(s.D, 2)\nnear(dead, 0)\n"), "True\nTrue\n");
+  }
+}
+
 TEST_F(Plant, CompiledItPlaysWhatABankPlays) {
   for (const Model& model : {single(), coupled()}) {
     write(model, PlantLanguage::kC, "plant.c");
@@ -264,6 +276,17 @@ TEST_F(Plant, AModelThatIsNotUsableSaysSoInItsFile) {
     const auto json = nlohmann::json::parse(plant_text(model, PlantLanguage::kJson, "")->text);
     EXPECT_EQ(json.contains("not_usable"), !usable);
   }
+}
+
+TEST_F(Plant, UnitsAreWholeInComments) {
+  Model model = single();
+  model.inputs[0].unit = "m/s";
+  model.outputs[0].unit = "*/ W/m\n";
+  for (const PlantLanguage language : {PlantLanguage::kOctave, PlantLanguage::kPython}) {
+    EXPECT_THAT(plant_text(model, language, "plant")->text, HasSubstr("u0 [m/s], u1 [V]. Outputs: y0 [/ W/m].\n"));
+  }
+  EXPECT_THAT(plant_text(model, PlantLanguage::kC, "plant")->header,
+              HasSubstr("u0 [m/s], u1 [V]. Outputs: y0 [/ W/m]."));
 }
 
 TEST_F(Plant, AnotherModelIsRefused) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <string_view>
 
 #include "paths.hpp"
 #include "run/flame_model.hpp"
@@ -208,6 +210,17 @@ TEST(Take, WhatCannotBeTakenIsSaid) {
   EXPECT_NE(take(model, {.inputs = {1, 2}}).error().message.find("the model has 1"), std::string::npos);
   Model mortal = default_flame_model();
   EXPECT_NE(take(mortal, {.loop = true, .inputs = {2}}).error().message.find("goes out"), std::string::npos);
+  EXPECT_NE(take(mortal, {.inputs = {2}}).error().message.find("out by the first frame"), std::string::npos);
+}
+
+TEST(Take, TheSearchForALoopSaysThatItGoesOnAndCanBeStopped) {
+  std::string seen;
+  const auto stop = [&](std::string_view stage, double) {
+    seen = stage;
+    return false;
+  };
+  EXPECT_EQ(take(leaf(), {.seconds = 2, .loop = true}, stop).error().message, kStopped);
+  EXPECT_EQ(seen, "searching for a loop");
 }
 
 }  // namespace

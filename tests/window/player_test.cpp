@@ -287,6 +287,37 @@ TEST(CandleInTheWindow, IsNotBlownAtByARestingPointerWhenThePictureChangesItsSiz
   EXPECT_EQ(player.state(), still.state());
 }
 
+TEST(CandleInTheWindow, IsNotBlownAtByAPointerThatLeavesAndComesBackElsewhere) {
+  Player player = player_of("flame-4.wisp"), still = player_of("flame-4.wisp");
+  for (const float x : {0.1F, 0.6F}) {
+    player.handle(PointerMoved{{x, 0.6F}});
+    for (Player* one : {&player, &still}) play(*one, 0.1);
+    player.handle(PointerLeft{});
+  }
+  EXPECT_EQ(player.state(), still.state());
+}
+
+TEST(CandleInTheWindow, IsCarriedOnWhenThePictureChangesItsSize) {
+  Player player = player_of("flame-4.wisp");
+  float at = 0.5F;
+  const auto carry = [&](float step) {  // slowly, so that the flame stays lit
+    for (int k = 0; k < 20; ++k) {
+      player.handle(PointerMoved{{at += step, 0.9F}});
+      player.advance(kFrame);
+    }
+    play(player, 0.5);
+  };
+  player.handle(PointerTurned{{at, 0.9F}, true});
+  carry(0.01F);
+  player.resize(640, 400);
+  play(player, 0.5);
+  EXPECT_NEAR(look(player.draw()).x / 640, 0.7, 0.04);
+  carry(-0.02F);
+  EXPECT_NEAR(look(player.draw()).x / 640, 0.3, 0.04);
+  press(player, Key::kR);
+  EXPECT_NEAR(look(player.draw()).x / 640, 0.5, 0.04);
+}
+
 TEST(LeavesInTheWindow, LandAndAreKickedUp) {
   Player player = player_of("leaf.wisp");
   const auto resting = [&] {

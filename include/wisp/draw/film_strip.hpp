@@ -4,6 +4,7 @@
 // opacity, as files for engines and browsers.
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -50,5 +51,9 @@ Result<void> write_atlas(const std::filesystem::path& path, const Flipbook& book
 /// Writes an animated picture with straight opacity: APNG (.apng) or WebM with VP9 (.webm), by the extension.
 /// Errors: no frames, frames of several sizes, another extension, and those of VideoWriter.
 Result<void> write_animation(const std::filesystem::path& path, const Flipbook& book);
+
+/// As above, but of `count` frames that `frame` draws one after the other, in the place of book.frames.
+Result<void> write_animation(const std::filesystem::path& path, const Flipbook& book, std::size_t count,
+                             const std::function<Image(std::size_t)>& frame);
 
 }  // namespace wisp

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "wisp/base/progress.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/model/model.hpp"
 
@@ -49,8 +50,8 @@ struct Take {
 /// Plays a model. A loop of an ARX model is its periodic orbit under periodic shocks; a loop of a chain is a walk that
 /// returns to the same row of a segment, whose remaining rotation and velocity change are distributed evenly over the
 /// loop. Errors: an option out of range; more than 5e8 numbers; a flame extinguished without a schedule; no such loop
-/// found.
-Result<Take> take(const Model& model, const TakeOptions& options);
+/// found; kStopped.
+Result<Take> take(const Model& model, const TakeOptions& options, const Progress& progress = {});
 
 /// Exports a take as a binary glTF 2.0 file (.glb), in metres where the model knows its size, with one key per frame of
 /// the take. A body is a node with translation and rotation; its mesh, a leaf, lies in its first two axes. An outline

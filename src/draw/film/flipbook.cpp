@@ -121,9 +121,7 @@ Result<void> write_atlas(const std::filesystem::path& path, const Flipbook& book
   Image atlas(grid.columns * width, grid.rows * height, {0, 0, 0, 0});
   for (std::size_t k = 0; k < book.frames.size(); ++k) {
     const int x = static_cast<int>(k) % grid.columns * width, y = static_cast<int>(k) / grid.columns * height;
-    for (int row = 0; row < height; ++row) {
-      std::ranges::copy(book.frames[k].row(row), atlas.row(y + row).begin() + x);
-    }
+    for (int row = 0; row < height; ++row) std::ranges::copy(book.frames[k].row(row), atlas.row(y + row).begin() + x);
   }
   const auto bytes = png_bytes(atlas);
   if (bytes.empty()) return failed(path, "this FFmpeg has no encoder for PNG");
@@ -134,15 +132,22 @@ Result<void> write_atlas(const std::filesystem::path& path, const Flipbook& book
 
 Result<void> write_animation(const std::filesystem::path& path, const Flipbook& book) {
   if (auto ok = check(path, book); !ok) return ok;
+  return write_animation(path, book, book.frames.size(), [&](std::size_t k) { return book.frames[k]; });
+}
+
+Result<void> write_animation(const std::filesystem::path& path, const Flipbook& book, std::size_t count,
+                             const std::function<Image(std::size_t)>& frame) {
   if (path.extension() != ".webm" && path.extension() != ".apng") {
     return failed(path, "expected a name that ends in .apng or .webm");
   }
-  const Image& first = book.frames[0];
+  if (count == 0) return failed(path, "there are no frames");
+  Image image = frame(0);
   auto film = VideoWriter::create(
-      path, {.width = first.width(), .height = first.height(), .rate_hz = book.rate_hz, .crf = 18, .loop = book.loop});
+      path, {.width = image.width(), .height = image.height(), .rate_hz = book.rate_hz, .crf = 18, .loop = book.loop});
   if (!film) return film.error();
-  for (const Image& frame : book.frames) {
-    if (auto ok = film->write(frame); !ok) return ok;
+  for (std::size_t k = 0; k < count; ++k) {
+    if (k > 0) image = frame(k);
+    if (auto ok = film->write(image); !ok) return ok;
   }
   return film->finish();
 }

@@ -22,13 +22,11 @@ constexpr Colour kText{244, 240, 232, 255};
 // Limit of coordinates: Cairo stores them in 24.8 fixed point, and larger ones are outside the picture.
 constexpr float kFarthest = 1e5F;
 
-bool finite(Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
-
 void trace(cairo_t* context, std::span<const Point> points, bool closed) {
   cairo_new_path(context);
   bool whole = !points.empty();
   for (const Point p : points) {
-    if (finite(p)) {
+    if (std::isfinite(p.x) && std::isfinite(p.y)) {
       cairo_line_to(context, std::clamp(p.x, -kFarthest, kFarthest), std::clamp(p.y, -kFarthest, kFarthest));
     } else {
       cairo_new_sub_path(context);

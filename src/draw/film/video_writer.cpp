@@ -133,9 +133,7 @@ Result<void> VideoWriter::Encoder::open() {
   packet.reset(av_packet_alloc());
   if (auto opened = open_video(); !opened) return opened;
   if (auto opened = open_scaler(); !opened) return opened;
-  if (options.sound_rate_hz > 0) {
-    if (auto opened = open_sound(); !opened) return opened;
-  }
+  if (auto opened = options.sound_rate_hz > 0 ? open_sound() : Result<void>(); !opened) return opened;
   const int file = avio_open(&format->pb, url.c_str(), AVIO_FLAG_WRITE);
   if (file < 0) return error("cannot be written", file);
   AVDictionary* settings = nullptr;
@@ -193,9 +191,7 @@ Result<void> VideoWriter::Encoder::open_video() {
 
 Result<void> VideoWriter::Encoder::open_sound() {
   const AVCodec* codec = avcodec_find_encoder(AV_CODEC_ID_AAC);
-  if (codec == nullptr) {
-    return Error{path.string() + ": cannot be encoded: this FFmpeg has no AAC encoder; install one that has"};
-  }
+  if (codec == nullptr) return option_error(path, "this FFmpeg has no AAC encoder; install one that has");
   sound.codec.reset(avcodec_alloc_context3(codec));
   AVCodecContext& context = *sound.codec;
   context.sample_fmt = AV_SAMPLE_FMT_FLTP;
@@ -221,8 +217,7 @@ Result<void> VideoWriter::Encoder::start_track(Track& track, const AVCodec* code
 }
 
 Result<void> VideoWriter::Encoder::open_scaler() {
-  const int width = padded_width();
-  const int height = padded_height();
+  const int width = padded_width(), height = padded_height();
   // Averages subsampled chroma, and rounds accurately, as flames are mostly dark gradients.
   constexpr int kQuality = SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INP;
   scaler.reset(

@@ -252,7 +252,6 @@ Wick make_wick(const FlameScene& scene, int width, int height) {
   Wick wick;
   const float unit = scene.pixels_per_unit;
   const float length = kWickHeight * unit;
-  if (length <= 0) return wick;
   wick.width = 0.032F * unit;
   wick.root = {scene.base.x, scene.base.y + kWickGap * unit};
   // Wicks curl over as they burn, in a random direction.

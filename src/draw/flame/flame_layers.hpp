@@ -82,6 +82,9 @@ struct LightField {
   Plane blue;
 };
 
+/// Returns the luminance of a part of a field.
+Plane luminance_in(const LightField& field, PixelBox box);
+
 /// One ring of the halo: its width, and its light for each unit of luminance.
 struct HaloRing {
   float sigma = 1;  ///< standard deviation of the Gaussian, pixels

@@ -38,17 +38,6 @@ void clear(LightField& field, PixelBox box) {
   }
 }
 
-Plane luminance_in(const LightField& field, PixelBox box) {
-  Plane plane(box.width, box.height);
-  for (int y = 0; y < box.height; ++y) {
-    const auto at = [&](const Plane& channel) { return channel.row(box.y + y) + box.x; };
-    const float *red = at(field.red), *green = at(field.green), *blue = at(field.blue);
-    float* out = plane.row(y);
-    for (int x = 0; x < box.width; ++x) out[x] = luminance({red[x], green[x], blue[x]});
-  }
-  return plane;
-}
-
 PixelBox around(PixelBox a, PixelBox b) {
   const int left = std::min(a.x, b.x), top = std::min(a.y, b.y);
   const int right = std::max(a.x + a.width, b.x + b.width), bottom = std::max(a.y + a.height, b.y + b.height);
@@ -76,7 +65,7 @@ void merge_meeting(std::vector<PixelBox>& boxes) {
       if (!meet(boxes[k], boxes[other])) continue;
       boxes[k] = around(boxes[k], boxes[other]);
       boxes.erase(boxes.begin() + static_cast<std::ptrdiff_t>(other));
-      other = k;  // The larger box may overlap others now.
+      k = other = 0;  // The larger box may overlap any other now.
     }
   }
 }
@@ -196,9 +185,7 @@ void LiveFlames::State::make_codes() {
     const auto fill = [&](const Plane& light, const Plane& there, Plane& code) {
       const float *from = light.row(y), *behind_it = there.row(y);
       float* to = code.row(y);
-      for (int x = 0; x < light.width; ++x) {
-        to[x] = tone.code(1 - (1 - behind_it[x]) * transmitted(from[x]));
-      }
+      for (int x = 0; x < light.width; ++x) to[x] = tone.code(1 - (1 - behind_it[x]) * transmitted(from[x]));
     };
     fill(glow.red, room_light->red, codes.red);
     fill(glow.green, room_light->green, codes.green);

@@ -239,14 +239,6 @@ namespace {
 constexpr float kCellsPerSigma = 1.6F;
 constexpr int kMaxLevels = 12;
 
-Plane luminance_of(const LightField& field) {
-  Plane plane(field.width(), field.height());
-  for (std::size_t k = 0; k < plane.values.size(); ++k) {
-    plane.values[k] = luminance({field.red.values[k], field.green.values[k], field.blue.values[k]});
-  }
-  return plane;
-}
-
 // Adds `coarse`, enlarged bilinearly to twice its size, to `fine`: the inverse placement of halved().
 void add_doubled(const Plane& coarse, Plane& fine) {
   std::vector<float> blend(coarse.width + 2);
@@ -359,7 +351,20 @@ int finest_level(std::span<const HaloRing> rings) {
   return finest;
 }
 
-void add_halo(LightField& field, std::span<const HaloRing> rings) { add_halo(luminance_of(field), rings, field); }
+Plane luminance_in(const LightField& field, PixelBox box) {
+  Plane plane(box.width, box.height);
+  for (int y = 0; y < box.height; ++y) {
+    const auto at = [&](const Plane& channel) { return channel.row(box.y + y) + box.x; };
+    const float *red = at(field.red), *green = at(field.green), *blue = at(field.blue);
+    float* out = plane.row(y);
+    for (int x = 0; x < box.width; ++x) out[x] = luminance({red[x], green[x], blue[x]});
+  }
+  return plane;
+}
+
+void add_halo(LightField& field, std::span<const HaloRing> rings) {
+  add_halo(luminance_in(field, {0, 0, field.width(), field.height()}), rings, field);
+}
 
 void add_halo(Plane luminance, std::span<const HaloRing> rings, LightField& field) {
   int top = 0;

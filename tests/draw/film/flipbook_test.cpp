@@ -79,6 +79,20 @@ TEST_F(FlipbookTest, AWebmHasOpacity) {
   EXPECT_NEAR(byte(pixels, 1), 200, 6);
 }
 
+TEST_F(FlipbookTest, AnAnimationOfFramesThatAreDrawnOneByOneIsTheSame) {
+  std::vector<std::size_t> drawn;
+  const auto draw = [&](std::size_t k) {
+    drawn.push_back(k);
+    return book_.frames[k];
+  };
+  const Flipbook rate{.loop = true};
+  ASSERT_TRUE(write_animation(folder_ / "a.apng", book_));
+  ASSERT_TRUE(write_animation(folder_ / "b.apng", rate, 5, draw));
+  EXPECT_EQ(read_by_ffmpeg("b.apng"), read_by_ffmpeg("a.apng"));
+  EXPECT_EQ(drawn, (std::vector<std::size_t>{0, 1, 2, 3, 4}));
+  EXPECT_NE(write_animation(folder_ / "b.apng", rate, 0, draw).error().message.find("no frames"), std::string::npos);
+}
+
 TEST_F(FlipbookTest, LightOverBlackIsWhatItWas) {
   Image image(1, 1, {30, 90, 60, 255});
   make_light(image);

@@ -57,6 +57,18 @@ TEST(LiveFlames, AreThePictureOfDrawFlames) {
   }
 }
 
+TEST(LiveFlames, AreSoBesideTwoOthersWhoseGlowsMeet) {
+  const auto small = drop_outline(0, 0.6F, 0.2F);
+  std::vector<Flame> flames;
+  // The glows of the last two meet, and the box around both reaches into the first, which neither meets.
+  for (const Point base : {Point{185, 160}, Point{200, 270}, Point{238, 190}}) {
+    FlameScene scene = scene_at(base.x, 100);
+    scene.base = base;
+    flames.push_back({small, scene});
+  }
+  EXPECT_EQ(differing(drawn_live(flames), drawn_once(flames), 5), 0);
+}
+
 TEST(LiveFlames, AreSoWithSmokeAndEmber) {
   const auto calm = drop_outline();
   FlameScene out = scene_at(140, 150);
