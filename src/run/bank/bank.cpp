@@ -30,6 +30,7 @@ Result<void> check_options(const BankOptions& options) {
 
 Result<void> check_all(const Model& model, const BankOptions& options) {
   if (auto ok = check_options(options); !ok) return ok;
+  if (const auto path = choose_frame_path(); !path) return path.error();
   if (auto ok = check(model); !ok) return ok;
   const auto check_kind = [&]<class Type>(const auto& dynamics, std::type_identity<Type>) -> Result<void> {
     if (auto ok = check_channels(model, Type::operating_point(dynamics)); !ok) return ok;
@@ -67,8 +68,6 @@ Result<std::size_t> bank_bytes(const Model& model, const BankOptions& options) {
 Result<Bank> Bank::create(const Model& model, const BankOptions& options) {
   const auto bytes = bank_bytes(model, options);
   if (!bytes) return bytes.error();
-  const auto path = choose_frame_path();
-  if (!path) return path.error();
   std::span<std::byte> memory = options.memory;
   const bool owned = memory.data() == nullptr;
   if (!owned && memory.size() < *bytes) {
@@ -83,7 +82,7 @@ Result<Bank> Bank::create(const Model& model, const BankOptions& options) {
   Arena arena(memory);
   void* place = arena.take<std::byte>(sizeof(State)).data();
   std::unique_ptr<State, Release> state(new (place) State(model, options, arena), Release{owned});
-  state->path = *path;
+  state->path = *choose_frame_path();
   return Bank(std::move(state));
 }
 

@@ -128,6 +128,8 @@ ExtinctionCount count_extinction(const Model& model) {
   Arena unused;
   const ExtinctionProgram rule = make_extinction_program(model, unused);
   if (!rule.present) return {};
+  const auto* outline = std::get_if<OutlineView>(&model.view);
+  const std::size_t recorded = outline && !model.extinction->catching.scale.empty() ? outline->shape.count() : 0;
   CountingReal wind, harm, lit(1.0f), size(1.0f);
   std::vector<CountingReal> shown(model.outputs.size());
   const OperationCount burning = count([&] {
@@ -135,8 +137,8 @@ ExtinctionCount count_extinction(const Model& model) {
     live<CountingNumbers>(rule, {&wind, &harm, &lit});
   });
   const OperationCount shrinking = count([&] {
-    // Interpolates the size. A recorded shape takes three operations more for each further component, not counted.
-    size = nearer(size, CountingReal(1.0f), 0.5f);
+    // Interpolates each recorded component; for a model without recorded components, the size.
+    for (std::size_t k = 0; k < std::max<std::size_t>(recorded, 1); ++k) size = nearer(size, CountingReal(1.0f), 0.5f);
     const auto now = load<Reals<CountingNumbers>>(&size);
     shrink<CountingNumbers>(size_between<CountingNumbers>(now, now, 0.5f), shown.size(), shown.data());
   });

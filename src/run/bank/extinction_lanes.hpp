@@ -1,7 +1,7 @@
 #pragma once
 // The rule of extinction (wisp/model/extinction.hpp), applied block by block. The state of an instance: damage, 0 … 1;
-// whether it is lit, 1 or 0; and the size at which it is drawn, 0 … 1. A step takes three operations, and one to read a
-// scalar wind; in an event, more for each component and displayed output.
+// whether it is lit, 1 or 0; and the size at which it is drawn, 0 … 1. A step takes three operations; in an event, more
+// for each component and displayed output.
 
 #include <cstdint>
 #include <span>
@@ -46,10 +46,8 @@ std::uint64_t hash_of(const ExtinctionProgram& program, std::uint64_t before);
 /// Returns the magnitude of the rule's wind, at most rule.most; lanes_of(input) reads an input. NaN counts as 0.
 template <class N, class LanesOf>
 inline Reals<N> blowing(const ExtinctionProgram& rule, const LanesOf& lanes_of) {
-  const auto zero = all<Reals<N>>(0.0f);
   if (rule.vector) return LevelVector<N>(lanes_of(rule.input), lanes_of(rule.input + 1), rule.most).length;
-  const auto wind = number_or(lanes_of(rule.input), zero);
-  return smaller(larger(wind, zero - wind), all<Reals<N>>(rule.most));
+  return smaller(magnitude(number_or(lanes_of(rule.input), all<Reals<N>>(0.0f))), all<Reals<N>>(rule.most));
 }
 
 /// The state of a block's instances, [lane].

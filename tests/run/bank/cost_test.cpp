@@ -103,6 +103,14 @@ TEST(Cost, AShippedFlameTakesAtMost1700OperationsInItsWorstFrame) {
   }
 }
 
+TEST(Cost, RecordedShapesOfAReIgnitionAreCounted) {
+  const auto model = read_model(WISP_SOURCE_DIR "/apps/web/public/models/flame.wisp");
+  ASSERT_TRUE(model && !model->extinction->catching.scale.empty());
+  Model bare = *model;
+  bare.extinction->catching = {};
+  EXPECT_GT(cost_of(*model).worst_operations, cost_of(bare).worst_operations);
+}
+
 TEST(Cost, AModelWithoutNoiseDrawsNoRandomNumbers) {
   Model model = flame_model();
   std::get<ArxModel>(model.dynamics).noise.sd.assign(16, 0.0);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "model/sample_chain.hpp"
+#include "wisp/model/file.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/chain_facet.hpp"
 
