@@ -130,22 +130,21 @@ void CandleFlow::set_drag() {
     }
 }
 
-FlowStep CandleFlow::step(float wind, bool exposed) {
+double CandleFlow::step(float wind, bool exposed) {
   feed_wick();
   move();
   mix();
   release_fuel();
-  FlowStep result;
-  result.burnt = combustion_.burn(grid_, cells_, exposed ? &blue_ : nullptr) * static_cast<double>(grid_.h) *
-                 static_cast<double>(grid_.h) / static_cast<double>(step_);
+  const double burnt = combustion_.burn(grid_, cells_, exposed ? &blue_ : nullptr) * static_cast<double>(grid_.h) *
+                       static_cast<double>(grid_.h) / static_cast<double>(step_);
   take_temperature();
   push(wind);
-  result.pressure = project();
+  project();
   if (exposed) {
     combustion_.add_glow(grid_, cells_, glow_);
     ++exposed_steps_;
   }
-  return result;
+  return burnt;
 }
 
 float CandleFlow::wick_temperature() const {
@@ -345,13 +344,12 @@ void CandleFlow::apply_pressure() {
   }
 }
 
-PressureSolve CandleFlow::project() {
+void CandleFlow::project() {
   set_divergence();
   pressure_.prepare();
   const float tolerance = kPressureTolerance * grid_.h * grid_.h;
-  const PressureSolve result = pressure_.solve(tolerance, kMaxIterations);
+  pressure_.solve(tolerance, kMaxIterations);
   apply_pressure();
-  return result;
 }
 
 float CandleFlow::hottest() const {

@@ -79,21 +79,16 @@ void CandleRig::step_frame(double wind) {
   const int closed = steps - std::max(1, static_cast<int>(std::lround(kExposure * steps)));
   flow_.clear_light();
   double burnt = 0;
-  double iterations = 0;
   for (int s = 0; s < steps; ++s) {
     const double now = wind_ + (next - wind_) * (s + 1) / steps;
     if (lighter_steps_ > 0) {
       flow_.hold_flame_to_wick();
       --lighter_steps_;
     }
-    const flow::FlowStep step = flow_.step(static_cast<float>(now), s >= closed);
-    burnt += step.burnt;
-    iterations += step.pressure.iterations;
+    burnt += flow_.step(static_cast<float>(now), s >= closed);
   }
   wind_ = next;
   burning_ = burnt / steps / std::max(options_.fuel_rate, 1e-12);
-  iterations_ = iterations / steps;
-  ++frames_;
   const float share = 1.0F / static_cast<float>(flow_.exposed_steps());
   copy_light(flow_.grid(), flow_.glow(), share, light_.soot);
   copy_light(flow_.grid(), flow_.blue(), share, light_.blue);
@@ -101,15 +96,12 @@ void CandleRig::step_frame(double wind) {
 
 CandleState CandleRig::state() const {
   CandleState state;
-  state.seconds = static_cast<double>(frames_) / options_.rate_hz;
   state.lit = burning_ >= kLitShare;
   state.fuel = static_cast<double>(flow_.fuel()) / std::max(options_.fuel_rate, 1e-12);
   state.burning = burning_;
-  state.wick_temperature = static_cast<double>(flow_.wick_temperature());
   state.hottest = static_cast<double>(flow_.hottest());
   state.fastest = static_cast<double>(flow_.fastest());
   state.finite = flow_.finite();
-  state.pressure_iterations = iterations_;
   return state;
 }
 

@@ -35,24 +35,18 @@ struct CandleBody {
 /// Returns the number of simulation steps per frame.
 int steps_per_frame(const CandleRigOptions& options);
 
-struct FlowStep {
-  double burnt = 0;  ///< m²/s of cold fuel burnt
-  PressureSolve pressure;
-};
-
 class CandleFlow {
  public:
   explicit CandleFlow(const CandleRigOptions& options);
 
-  /// Advances one step with a wind in m/s. While `exposed`, light is accumulated.
-  FlowStep step(float wind, bool exposed);
+  /// Advances one step with a wind in m/s. While `exposed`, light is accumulated. Returns m²/s of cold fuel burnt.
+  double step(float wind, bool exposed);
 
   /// Heats the surroundings of the wick to at least 1500 K and supplies fuel, like a lighter.
   void hold_flame_to_wick();
 
   const FlowGrid& grid() const { return grid_; }
   const CandleBody& body() const { return body_; }
-  float wick_temperature() const;
   float fuel() const { return fuel_; }
   float hottest() const;
   float fastest() const;
@@ -66,6 +60,7 @@ class CandleFlow {
 
  private:
   void set_drag();
+  float wick_temperature() const;
   void feed_wick();
   void move();
   void take_temperature();
@@ -75,7 +70,7 @@ class CandleFlow {
   void mix();
   void release_fuel();
   void push(float wind);
-  PressureSolve project();
+  void project();
   void set_divergence();
   void apply_pressure();
 
@@ -117,15 +112,12 @@ struct RigLight {
 
 /// State of the rig after the last frame.
 struct CandleState {
-  double seconds = 0;              ///< time since the rig was created
-  bool lit = false;                ///< burns at least a tenth of fuel_rate (a calm flame burns fuel_rate)
-  double fuel = 0;                 ///< emitted by the wick, as a share of fuel_rate
-  double burning = 0;              ///< fuel burnt, as a share of fuel_rate
-  double wick_temperature = 0;     ///< K, mean within 2 mm of the wick's box
-  double hottest = 0;              ///< maximum temperature, K
-  double fastest = 0;              ///< maximum speed, m/s
-  bool finite = true;              ///< false: the flow has NaN or infinity, which would be a defect
-  double pressure_iterations = 0;  ///< mean per step
+  bool lit = false;    ///< burns at least a tenth of fuel_rate (a calm flame burns fuel_rate)
+  double fuel = 0;     ///< emitted by the wick, as a share of fuel_rate
+  double burning = 0;  ///< fuel burnt, as a share of fuel_rate
+  double hottest = 0;  ///< maximum temperature, K
+  double fastest = 0;  ///< maximum speed, m/s
+  bool finite = true;  ///< false: the flow has NaN or infinity, which would be a defect
 };
 
 /// One candle. Equal options and winds give equal bits.
@@ -153,11 +145,9 @@ class CandleRig {
   CandleRigOptions options_;
   flow::CandleFlow flow_;
   RigLight light_;
-  long long frames_ = 0;
   int lighter_steps_ = 0;
   double wind_ = 0;
   double burning_ = 0;
-  double iterations_ = 0;
 };
 
 }  // namespace wisp

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "record/number_text.hpp"
 #include "simulate/option_range.hpp"
 #include "simulate/random_numbers.hpp"
 
@@ -271,6 +272,10 @@ Result<WindSignal> WindSignal::generate(const WindSignalOptions& options, double
   if (auto good = check(options, seconds); !good) return good.error();
   if (options.puff_every > 0 && options.puff_every < kClosestPuffs)
     return Error{"wind: puff_every is " + std::to_string(options.puff_every) + ", expected 0, or 2 s and more"};
+  const double latest = std::max(options.blow_out_at, options.puff_every);  // of the first puffs of both options
+  if (latest > 0 && latest >= seconds)
+    return Error{"wind: a puff at " + number_text(latest, 6) + " s is not before its end at " +
+                 number_text(seconds, 6) + " s"};
   WindSignal signal;
   signal.rate_hz_ = kRate;
   const auto count = static_cast<std::size_t>(std::ceil(seconds * kRate)) + 1;

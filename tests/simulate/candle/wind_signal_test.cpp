@@ -83,6 +83,13 @@ TEST(WindSignal, BlowsOutWhenAskedAndSaysWhenToLightAgain) {
   EXPECT_TRUE(WindSignal::generate({.blow_out_at = 4, .relight_after = -1}, 10)->relights().empty());
 }
 
+TEST(WindSignal, APuffAfterTheEndIsAnError) {
+  const auto late = WindSignal::generate({.blow_out_at = 10}, 10);
+  ASSERT_FALSE(late);
+  EXPECT_EQ(late.error().message, "wind: a puff at 10 s is not before its end at 10 s");
+  EXPECT_FALSE(WindSignal::generate({.puff_every = 60}, 10));
+}
+
 TEST(WindSignal, PuffsVaryAndTheCandleIsLitAgainAfterEach) {
   const WindSignal wind = *WindSignal::generate({.puff_every = 5, .relight_after = 1.5}, 22);
   EXPECT_EQ(wind.relights(), (std::vector<double>{6.5, 11.5, 16.5, 21.5}));
