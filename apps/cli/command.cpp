@@ -61,7 +61,7 @@ bool is_sample_range(const std::string& text) {
   int end = -1;
   const bool read = std::sscanf(text.c_str(), "%zu:%zu%n", &range.first, &range.last, &end) == 2;
   return read && text.find_first_not_of("0123456789:") == std::string::npos && end == std::ssize(text) &&
-         range.first >= 1 && range.first <= range.last;
+         range.first >= 1 && range.first <= range.last && range.last < std::numeric_limits<std::size_t>::max() / 2;
 }
 
 SampleRange Arguments::samples(std::string_view flag) const {
@@ -130,9 +130,9 @@ std::vector<std::filesystem::path> files_written(const Flag& flag, const std::fi
 // Returns the kind of a file by its extension; empty for other extensions, which any kind may have.
 std::string kind_of(const std::filesystem::path& name) {
   static const std::map<std::string, std::string> kinds = {
-      {".csv", "table"}, {".wisp", "model"},  {".html", "page"},   {".json", "document"},
-      {".wav", "sound"}, {".png", "picture"}, {".svg", "picture"}, {".mp4", "film"},
-      {".mov", "film"},  {".mkv", "film"},    {".webm", "film"}};
+      {".csv", "table"},      {".wisp", "model"},     {".html", "page"},       {".json", "document"},
+      {".wav", "sound"},      {".png", "picture"},    {".svg", "picture"},     {".mp4", "film"},
+      {".mov", "other film"}, {".mkv", "other film"}, {".webm", "other film"}, {".avi", "other film"}};
   const auto known = kinds.find(name.extension().string());
   return known == kinds.end() ? std::string() : known->second;
 }
@@ -173,6 +173,7 @@ Result<void> check_outputs(const Command& command, const Arguments& arguments) {
   for (const Flag& flag : command.flags) {
     if (flag.kind != Kind::kOutput || !arguments.has(flag.name)) continue;
     const std::string& output = arguments.text(flag.name);
+    if (output == "-") return Error{"--" + flag.name + " -: nothing is written to standard output; give a name"};
     for (const std::filesystem::path& written : files_written(flag, output)) {
       for (const std::string& input : files_read(command, arguments)) {
         if (!would_destroy(written, input)) continue;
@@ -185,7 +186,7 @@ Result<void> check_outputs(const Command& command, const Arguments& arguments) {
       return Error{"--" + flag.name + " " + output + ": the name is of another kind of file, expected one such as " +
                    flag.value};
     }
-    if (flag.value == "DIR" || kind_of(output).empty()) continue;
+    if (flag.value == "DIR" || (kind_of(output).empty() && flag.value != "M.wisp")) continue;
     if (auto ok = check_writable(output); !ok) return ok;
   }
   return {};

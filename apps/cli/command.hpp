@@ -136,7 +136,7 @@ std::string first_steps();
 /// Returns the help for the command or group of commands with these words, else for the program.
 std::string help(const std::string& words);
 
-/// Returns one line about the first unknown command or flag, with the nearest known one. Empty if all words are known.
+/// Returns one line about the first unknown or misplaced word, with the nearest known one. Empty if there is none.
 std::string wrong_words(std::span<const std::string> words);
 
 /// Returns whether writing a file would overwrite an input or a numbered image of an input folder, also through a link.

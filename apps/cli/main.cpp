@@ -25,7 +25,7 @@ bool is_whole(const std::string& text) {
 bool is_number(const std::string& text) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
-  return !text.empty() && *end == '\0' && std::isfinite(value);
+  return !text.empty() && *end == '\0' && std::abs(value) <= 1e30;  // single precision holds it
 }
 
 bool is_word(const Flag& flag, const std::string& text) {
@@ -37,8 +37,8 @@ std::string complaint_of_kind(const Flag& flag, const std::string& text) {
   const std::string found = "found \"" + text + "\", expected ";
   switch (flag.kind) {
     case Kind::kSwitch:
-    case Kind::kText:
       return {};
+    case Kind::kText:
     case Kind::kPath:
     case Kind::kOutput:
     case Kind::kNames:
@@ -46,7 +46,7 @@ std::string complaint_of_kind(const Flag& flag, const std::string& text) {
     case Kind::kInteger:
       return is_whole(text) ? std::string() : found + "a whole number from 0 to 999999999";
     case Kind::kNumber:
-      return is_number(text) ? std::string() : found + "a number";
+      return is_number(text) ? std::string() : found + "a number within 1e30";
     case Kind::kChoice:
       return is_word(flag, text) ? std::string() : found + "one of " + joined(flag.words, ", ");
     case Kind::kIntegerOrWord:

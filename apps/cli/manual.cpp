@@ -299,7 +299,8 @@ std::string wrong_flag(const Command& command, std::span<const std::string> word
 }  // namespace
 
 std::string wrong_words(std::span<const std::string> words) {
-  if (words.empty() || words[0].starts_with('-')) return {};
+  if (words.empty()) return {};
+  if (words[0].starts_with('-')) return "wisp: found " + words[0] + ", expected a command before flags: wisp --help";
   for (const Command& command : commands()) {
     const bool one = command.name == words[0];
     if (one || (words.size() > 1 && command.name == words[0] + " " + words[1])) {

@@ -37,8 +37,10 @@ json.dump(found, open(out, "w"))
 def in_blender(glb, rate, frames, work):
     script, out = work / "inside.py", work / "found.json"
     script.write_text(INSIDE)
-    subprocess.run(["blender", "--background", "--factory-startup", "--python-exit-code", "1", "--python", script, "--",
-                    glb, str(rate), str(frames), out], check=True, stdout=subprocess.DEVNULL)
+    ran = subprocess.run(["blender", "--background", "--factory-startup", "--python-exit-code", "1", "--python", script,
+                          "--", glb, str(rate), str(frames), out], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    if ran.returncode != 0:
+        sys.exit(f"blender ended with {ran.returncode}:\n{ran.stdout}")
     return json.loads(out.read_text())
 
 

@@ -119,6 +119,38 @@ TEST_F(Clip, BecomesARecordingAModelAndPictures) {
   EXPECT_GT(fs::file_size(at("flame.mp4")), 1000u);
 }
 
+TEST_F(Clip, AnotherFilmThanTheRecordingsAndAnotherNumberOfPointsAreErrors) {
+  write_clip("clip.mp4", kFrames);
+  ASSERT_EQ(wisp("capture flame " + at("clip.mp4") + " -o " + at("rec.csv")).status, 0);
+  ASSERT_EQ(wisp("learn flame " + at("rec.csv") + " -o " + at("m.wisp")).status, 0);
+  auto wide = VideoWriter::create(at("wide.mp4"), {.width = 2 * kWidth, .height = kHeight, .rate_hz = 30});
+  ASSERT_TRUE(wide);
+  for (int k = 0; k < kFrames; ++k) ASSERT_TRUE(wide->write(Image(2 * kWidth, kHeight)));
+  ASSERT_TRUE(wide->finish());
+  for (const std::string& picture : {"--overlay " + at("a.mp4"), "--film-strip " + at("a.png")}) {
+    const Said said =
+        wisp("validate " + at("m.wisp") + " " + at("rec.csv") + " --clip " + at("wide.mp4") + " " + picture);
+    EXPECT_EQ(said.status, 1) << picture;
+    EXPECT_THAT(said.err, HasSubstr("wide.mp4: its pictures are 320 × 200 pixels, expected 160 × 200")) << picture;
+  }
+  const Said points =
+      wisp("learn flame " + at("rec.csv") + " " + at("clip.mp4") + " --points 16 -o " + at("sixteen.wisp"));
+  EXPECT_EQ(points.status, 2);
+  EXPECT_THAT(points.err, HasSubstr("--points 16: " + at("rec.csv") + " has 8 control points"));
+  EXPECT_FALSE(fs::exists(at("a.mp4")) || fs::exists(at("a.png")) || fs::exists(at("sixteen.wisp")));
+}
+
+TEST_F(Clip, AMissingFilmIsNamedBeforeTheOthersAreCaptured) {
+  write_clip("clip.mp4", 10);
+  for (const std::string command : {"learn flame ", "capture flame "}) {
+    const Said said = wisp(command + at("clip.mp4") + " " + at("none.mp4") + " -o " + at("made"));
+    EXPECT_EQ(said.status, 1);
+    EXPECT_EQ(said.err, "wisp: " + at("none.mp4") + ": no such file; check the path\n");
+    EXPECT_EQ(said.out, "");
+    EXPECT_TRUE(!fs::exists(at("made")) || fs::is_empty(at("made")));
+  }
+}
+
 TEST_F(Clip, AFilmStripShowsTheLearnedFlameInTheClipsOwnLightAndCrop) {
   auto film = VideoWriter::create(at("clip.mp4"), {.width = kWidth, .height = kHeight, .rate_hz = 30});
   ASSERT_TRUE(film);

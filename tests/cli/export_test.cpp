@@ -142,6 +142,8 @@ TEST_F(Export, AFlagThatWouldDoNothingIsWrongUsage) {
   refused(kFlame + " --instances 2 -o " + at("a.json"), "--instances does nothing to a .json file");
   ASSERT_TRUE(write_model(at("calm.wisp"), sample_chain()));
   refused(at("calm.wisp") + " --wind 1 -o " + at("a.glb"), "has none");
+  refused(kFlame + " --input wind.csv --wind 1 -o " + at("a.glb"), "--wind is constant, and --input is not");
+  refused(kFlame + " --input wind.csv --loop 1 -o " + at("a.glb"), "--loop does not go with --input");
   refused(at("calm.wisp") + " --input wind.csv -o " + at("a.glb"), "--input drives a model's inputs");
   EXPECT_FALSE(fs::exists(at("a.c")) || fs::exists(at("a.glb")) || fs::exists(at("a.json")));
 }
@@ -154,6 +156,7 @@ TEST_F(Export, WhatCannotBeWrittenIsOneSentenceAndNoFile) {
   expect_error(kLeaf + " -o " + at("a.png"), "no flame to draw");
   expect_error(kFlame + " --seconds 0 -o " + at("a.glb"), "expected above 0");
   expect_error(kFlame + " --size 40 -o " + at("a.png"), "expected 16 to 2048");
+  expect_error(kFlame + " --loop 1 --frames 0 -o " + at("a.png"), "--frames is 0, expected at least 1");
   expect_error(kFlame + " --instances 5000 -o " + at("a.glb"), "expected 1 to 1000");
   expect_error(kFlame + " --wind 9 --seconds 2 -o " + at("a.glb"), "goes out");
   expect_error(at("none.wisp") + " -o " + at("a.glb"), "cannot be opened");

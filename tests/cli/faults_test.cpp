@@ -99,6 +99,7 @@ TEST_F(Faults, NamesOfAnotherKindOfFileAreRefused) {
   for (const std::string& line :
        {"simulate leaf --drops 1 -o " + at("rec.png"), std::string("capture flame no.mp4 -o ") + at("rec.mp4"),
         std::string("learn arx no.csv --inputs u --outputs y -o ") + at("model.csv"),
+        std::string("validate ") + kFlame + " no.csv --overlay " + at("overlay.mkv"),
         std::string("validate ") + kFlame + " no.csv --film-strip " + at("strip.mp4")}) {
     const Said said = wisp(line);
     EXPECT_EQ(said.status, 2) << line << said.err;
@@ -113,11 +114,31 @@ TEST_F(Faults, NamesOfAnotherKindOfFileAreRefused) {
 TEST_F(Faults, AnOutputInAMissingFolderIsFoundBeforeAnythingIsRead) {
   for (const std::string& line :
        {std::string("learn arx no.csv --inputs u --outputs y -o nowhere/m.wisp"),
+        std::string("learn arx no.csv --inputs u --outputs y -o nowhere/m"),
         std::string("learn flame no.mp4 -o nowhere/m.wisp"), std::string("capture flame no.mp4 -o nowhere/rec.csv"),
         std::string("validate ") + kFlame + " no.mp4 --overlay nowhere/o.mp4"}) {
     const Said said = wisp(line);
     EXPECT_EQ(said.status, 1) << line;
     EXPECT_THAT(said.err, AllOf(testing::StartsWith("wisp: nowhere/"), HasSubstr("cannot be written"))) << line;
+  }
+}
+
+TEST_F(Faults, ADemoWhoseFilesCannotBeWrittenEndsBeforeItsWork) {
+  std::filesystem::create_directories(at("recording.csv"));
+  EXPECT_THAT(wisp("demo no.mp4 -o " + at("")).err, HasSubstr("recording.csv: is a folder, expected a file name"));
+}
+
+TEST_F(Faults, FlagsOfAnotherKindOfModelOrFileAreRefused) {
+  const std::string flame = std::string("validate ") + kFlame;
+  for (const auto& [line, why] :
+       {std::pair{flame + " no.csv --initial zero", "--initial is for plain models"},
+        {flame + " no.mp4 --columns a,b", "--columns is of a table, and no.mp4 is a clip"},
+        {flame + " no.csv --film-strip " + at("a.svg"), "expected a name in .png"},
+        {std::string("run ") + kFlame + " --input no.wav --own-gain -o " + at("a.csv"), "--own-gain is of a table"},
+        {"validate " WISP_SOURCE_DIR "/tests/c/models/leaf.wisp no.csv --steps 3", "--steps is for models that"}}) {
+    const Said said = wisp(line);
+    EXPECT_EQ(said.status, 2) << line << said.err;
+    EXPECT_THAT(said.err, HasSubstr(why)) << line;
   }
 }
 

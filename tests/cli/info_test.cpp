@@ -251,6 +251,11 @@ TEST_F(Info, FlagsOfARecordingAreRefusedForAModel) {
   }
 }
 
+TEST_F(Info, ModelsAreLookedAtOneAtATime) {
+  const std::string model = WISP_SOURCE_DIR "/tests/c/models/leaf.wisp";
+  EXPECT_THAT(wisp("info " + model + " " + model).err, HasSubstr("leaf.wisp: is no table, expected recordings, or"));
+}
+
 // examples/08_play_json/play.py plays what `info` says; `run` plays the model.
 class InfoPlayed : public Info {
  protected:

@@ -166,6 +166,8 @@ TEST_F(LearnArxParts, WhatIsMissingOnTheCommandLineIsNamed) {
   EXPECT_EQ(wisp("learn arx " + whole()).status, 2);
   EXPECT_THAT(wisp("learn arx " + whole()).err, HasSubstr("--output"));
   EXPECT_THAT(wisp("learn arx " + at("system.csv") + " --partial " + at("p.part")).err, HasSubstr("--outputs"));
+  EXPECT_THAT(wisp("learn arx " + whole() + " --partial " + at("p.part") + " --focus auto").err,
+              HasSubstr("--focus auto needs the recordings in one place"));
   for (const char* share : {"0/2", "3/2", "1", "1/0", "a/b", "1/2/3"}) {
     const Said said = wisp("learn arx " + whole() + " --partial " + at("p.part") + " --part " + share);
     EXPECT_EQ(said.status, 2) << share;
@@ -176,8 +178,8 @@ TEST_F(LearnArxParts, WhatIsMissingOnTheCommandLineIsNamed) {
 
 TEST_F(LearnArxParts, FlagsThatNeedRowsOrContradictThePartsDoNotGoWithMerge) {
   const std::string parts = write_parts(2);
-  for (const char* flag :
-       {"--search na=1:2", "--range 1:100", "--inputs push", "--outputs here", "--na 9", "--coupling diagonal"}) {
+  for (const char* flag : {"--search na=1:2", "--range 1:100", "--inputs push", "--outputs here", "--na 9",
+                           "--coupling diagonal", "--rate 3", "--columns a,b"}) {
     const Said said = wisp("learn arx --merge" + parts + " -o " + at("m.wisp") + " " + flag);
     EXPECT_EQ(said.status, 2) << flag;
     EXPECT_THAT(said.err, HasSubstr("does not go with --merge: parts hold no rows")) << flag;

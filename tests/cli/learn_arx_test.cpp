@@ -96,6 +96,22 @@ TEST_F(LearnArx, ABadRecordingIsNamedOrLeftOut) {
   EXPECT_EQ(lenient.json()["skipped"].size(), 1u);
 }
 
+TEST_F(LearnArx, ARecordingThatIsShorterThanTheRangeIsLeftOutToo) {
+  std::ofstream(folder_ / "short.csv") << "# wisp-recording 1\n# rate_hz 10\nu:push,y:place\n1,2\n3,4\n";
+  const std::string both = "learn arx " + at("short.csv") + " " + at("system.csv") +
+                           " --inputs push --outputs place --na 2 --nb 2 --range 1:100 --json ";
+  EXPECT_THAT(wisp(both).err, HasSubstr("short.csv: --range 1:100 reaches beyond its 2 rows"));
+  const Said lenient = wisp(both + "--skip-bad");
+  EXPECT_EQ(lenient.status, 0) << lenient.err;
+  EXPECT_EQ(lenient.json()["skipped"].size(), 1u);
+}
+
+TEST_F(LearnArx, AnOutputNamedTwiceIsWrongUsage) {
+  const Said said = wisp("learn arx " + at("system.csv") + " --inputs push --outputs place,place --json");
+  EXPECT_EQ(said.status, 2);
+  EXPECT_THAT(said.err, HasSubstr("--outputs names 'place' twice"));
+}
+
 TEST_F(LearnArx, ADamagedModelIsRefusedByEveryCommand) {
   ASSERT_EQ(wisp(learn("--na 2 --nb 2 --nk 1")).status, 0);
   std::string bytes = file_text(at("m.wisp"));

@@ -250,7 +250,7 @@ TEST_F(Tables, ATableOfAModelThatResamplesStatesItsOwnRate) {
 
 TEST_F(Tables, FlagsOfFilmsAreRefusedWhereATableIsJudged) {
   const std::string models = WISP_SOURCE_DIR "/tests/c/models/";
-  for (const std::string flag : {"--frames 1:100", "--own-gain", "--dark"}) {
+  for (const std::string flag : {"--frames 1:100", "--own-gain", "--dark", "--align off"}) {
     for (const std::string& model : {model(), models + "leaf.wisp"}) {
       const Said said = wisp("validate " + model + " " + plain() + " " + flag);
       EXPECT_EQ(said.status, 2) << flag;
@@ -293,6 +293,9 @@ TEST_F(Tables, PredictOfASwitchedModelHasNoIntervals) {
   const Recording two = recording("two.csv");
   EXPECT_TRUE(find_channel(two, "y.predicted"));
   EXPECT_FALSE(find_channel(two, "y.low"));
+  const Said said = wisp("validate " + at("s.wisp") + " " + plain() + " --initial zero");
+  EXPECT_EQ(said.status, 2);
+  EXPECT_THAT(said.err, HasSubstr("--initial is for single models"));
 }
 
 TEST_F(Tables, CompareHoldsModelsAgainstTheSameRows) {

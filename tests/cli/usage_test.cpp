@@ -40,6 +40,7 @@ TEST_F(Usage, AMistypedWordIsAnsweredWithTheNearest) {
   EXPECT_THAT(wisp("capture flame a.mp4 -o a.csv --pionts=3").err,
               HasSubstr("wisp capture flame: there is no flag --pionts; did you mean --points?"));
   EXPECT_THAT(wisp("capture flame a.mp4 -o a.csv --purple").err, HasSubstr("there is no flag --purple. Its flags: "));
+  EXPECT_THAT(wisp("--json info a.csv").err, HasSubstr("found --json, expected a command before flags"));
   // What is wrong here is no word.
   EXPECT_THAT(wisp("capture flame a.mp4").err, HasSubstr("--output is required"));
 }
@@ -127,6 +128,25 @@ TEST_F(Usage, WhatIsWrongWithAFlagIsStatus2BeforeAnyWork) {
   EXPECT_EQ(wisp("learn arx a.csv --outputs y --rate 1e9 -o m.wisp").status, 2);
   EXPECT_THAT(wisp("capture flame \"$(printf 'a\\nb.mp4')\" -o a.csv").err,
               HasSubstr("the name has a line break in it"));
+}
+
+TEST_F(Usage, AFlagThatNeedsAnotherIsRefusedWithoutIt) {
+  for (const std::string flag : {"--inputs a", "--own-gain", "--columns a,b", "--rate 3", "--dt 3"}) {
+    const Said said = wisp("run a.wisp --frames 3 -o a.csv " + flag);
+    EXPECT_EQ(said.status, 2) << flag;
+    EXPECT_THAT(said.err, HasSubstr(flag.substr(0, flag.find(' ')) + " requires --input")) << flag;
+  }
+}
+
+TEST_F(Usage, ValuesThatCannotBeMeantAreRefused) {
+  for (const auto& [line, found] : {std::pair{"run a.wisp --frames 3 -o a.csv --wind 1e300", "found \"1e300\""},
+                                    {"capture flame a.mp4 -o a.csv --frames 1:99999999999999999999", "--frames: found"},
+                                    {"capture flame a.mp4 -o a.csv --region ''", "is empty"},
+                                    {"predict a.wisp a.csv -o -", "nothing is written to standard output"}}) {
+    const Said said = wisp(line);
+    EXPECT_EQ(said.status, 2) << line;
+    EXPECT_THAT(said.err, HasSubstr(found)) << line;
+  }
 }
 
 TEST_F(Usage, TheManualInDocsIsTheProgramsOwn) {

@@ -52,6 +52,7 @@ Result<void> run_many(const ClipCapture& options, const Arguments& arguments, Te
   const std::string& folder = arguments.text("output");
   const auto tables = tables_in(folder, clips);
   if (!tables) return tables.error();
+  if (auto ok = check_present(arguments); !ok) return ok;
   ReportTable written{"clips", "", {{"clip", ""}, {"recording", ""}, {"usable", ""}, {"reason", ""}}, {}};
   for (std::size_t k = 0; k < clips.size(); ++k) {
     const auto clip = capture(clips[k], options, terminal.progress());
@@ -81,6 +82,7 @@ Result<Captured> captured(const ClipCapture& options, const Arguments& arguments
     angles.push_back(std::strtod(word.c_str(), &end));
     if (*end != '\0' || word.empty()) return Error{"--angles: found \"" + word + "\", expected degrees, such as 0,90"};
   }
+  if (auto ok = check_present(arguments); !ok) return ok.error();
   const std::vector<std::filesystem::path> films(arguments.positionals().begin(), arguments.positionals().end());
   return capture_views(films, angles, options, terminal.progress());
 }
@@ -135,7 +137,10 @@ Result<Recording> brightness_of(const Arguments& arguments, Terminal& terminal) 
     const auto stated = csv_options(arguments);  // --rate or --dt
     if (!options || !stated) return options ? stated.error() : options.error();
     options->rate_hz = stated->rate_hz;
-    return capture_brightness(path, *options, terminal.progress());
+    std::vector<std::string> warnings;
+    auto captured = capture_brightness(path, *options, terminal.progress(), &warnings);
+    for (const std::string& warning : warnings) terminal.warn(path + ": " + warning);
+    return captured;
   }
   if (auto ok = refuse(arguments, {"region", "frames"}, of_clips(path)); !ok) return ok.error();
   const std::string& name = arguments.text("channel");

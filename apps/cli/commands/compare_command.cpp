@@ -69,7 +69,7 @@ Result<void> run_compare(const Arguments& arguments, Terminal& terminal) {
   if (!steps) return steps.error();
   auto whole = read_tables(tables, arguments, terminal, channels_of(*models));
   if (!whole) return whole.error();
-  const auto recordings = in_range(std::move(*whole), arguments);
+  const auto recordings = in_range(std::move(*whole), arguments, terminal);
   if (!recordings) return recordings.error();
   const auto report =
       compare(*models, *recordings, {.steps = *steps, .initial = *value_of<InitialState>(arguments.text("initial"))},

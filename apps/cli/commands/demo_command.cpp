@@ -82,7 +82,8 @@ Result<void> run(const Step& step, Terminal& terminal) {
   arguments.set_positionals(step.files);
   Report all = std::exchange(terminal.result(), {});
   terminal.begin();
-  auto outcome = step.command.run(arguments, terminal);
+  auto outcome = check_outputs(step.command, arguments);
+  if (outcome) outcome = step.command.run(arguments, terminal);
   const auto verdict = terminal.result().verdict;
   all.append(part_of_whole(step.name, line, std::move(terminal.result())));
   terminal.result() = std::move(all);

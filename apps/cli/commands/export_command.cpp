@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -45,19 +46,23 @@ struct Pages {
   int height = 0, width = 0;        // size of a frame; width 0: the maximum width of flame and halo
 };
 
-// Draws frames of a take. Errors: the model is no flame; the height is not 16 to 2048.
-Result<Flipbook> flame_flipbook(const Model& model, const Take& take, const Pages& pages) {
+// Frames of a take that are drawn one at a time, as a long film's would not fit into memory.
+struct FlamePages {
+  Flipbook book;  // without frames
+  std::function<Image(std::size_t)> draw;
+};
+
+// Errors: the model is no flame; the height is not 16 to 2048.
+Result<FlamePages> flame_pages(const Model& model, const Take& take, const Pages& pages) {
   const int height = pages.height;
   constexpr int kPoints = 96;
   constexpr float kHalo = 0.35F;  // margin around the flame, in flame heights
-  if (!is_flame(model)) {
+  if (!is_flame(model))
     return Error{
         "the model is no flame to draw as light; an outline goes into a .json, a body's motion into a .glb, a lamp "
         "into a .c"};
-  }
-  if (height < 16 || height > 2048) {
+  if (height < 16 || height > 2048)
     return Error{"a frame is " + std::to_string(height) + " pixels high, expected 16 to 2048"};
-  }
   float left = 0, right = 0, top = 0;
   std::vector<std::vector<Point>> outlines;
   for (const std::size_t frame : pages.frames) {
@@ -82,15 +87,16 @@ Result<Flipbook> flame_flipbook(const Model& model, const Take& take, const Page
   const float margin = pages.width > 0 ? (static_cast<float>(width) - reach) / 2 : 0;
   scene.base = {margin + room - left * scene.pixels_per_unit, static_cast<float>(height) - room};
   const double seconds = static_cast<double>(take.frames) / take.rate_hz;
-  Flipbook book{.rate_hz = static_cast<double>(pages.frames.size()) / seconds, .loop = take.loop, .pivot = scene.base};
-  for (const auto& outline : outlines) {
-    book.frames.emplace_back(width, height);
-    const Flame flame{outline, scene};
-    draw_flames(book.frames.back(), {&flame, 1}, style);
-    make_light(book.frames.back());
-    fade_edges(room, book.frames.back());
-  }
-  return book;
+  const double rate = static_cast<double>(pages.frames.size()) / seconds;
+  return FlamePages{{.rate_hz = rate, .loop = take.loop, .pivot = scene.base},
+                    [=, outlines = std::move(outlines)](std::size_t k) {
+                      Image image(width, height);
+                      const Flame flame{outlines[k], scene};
+                      draw_flames(image, {&flame, 1}, style);
+                      make_light(image);
+                      fade_edges(room, image);
+                      return image;
+                    }};
 }
 
 constexpr int kFilmHeight = 256, kLottieHeight = 512, kAtlasColumns = 8, kAtlasSize = 1024;
@@ -98,6 +104,7 @@ constexpr int kFilmHeight = 256, kLottieHeight = 512, kAtlasColumns = 8, kAtlasS
 struct Job {
   const Model& model;
   const Arguments& arguments;
+  Terminal& terminal;
   std::string path;
   std::size_t frames = 0;  // number of frames to write
 };
@@ -123,14 +130,21 @@ Result<void> write_pictures(Job& job, const Take& taken) {
   const int columns = given(job, "columns", kAtlasColumns), size = given(job, "size", kAtlasSize);
   if (atlas && (columns < 1 || columns > 64)) return Error{"--columns is not 1 to 64"};
   auto count = atlas ? static_cast<std::size_t>(columns) * static_cast<std::size_t>(columns) : taken.frames;
-  if (job.arguments.has("frames")) count = static_cast<std::size_t>(std::max(1, job.arguments.integer("frames")));
+  if (given(job, "frames", 1) < 1) return Error{"--frames is 0, expected at least 1"};
+  if (job.arguments.has("frames")) count = static_cast<std::size_t>(job.arguments.integer("frames"));
   Pages pages{{}, atlas ? size / columns : given(job, "size", kFilmHeight), atlas ? size / columns : 0};
   job.frames = count = std::min(count, taken.frames);
   for (std::size_t k = 0; k < count; ++k) pages.frames.push_back(k * taken.frames / count);
-  auto book = flame_flipbook(job.model, taken, pages);
-  if (!book) return book.error();
-  book->columns = columns;
-  return atlas ? write_atlas(job.path, *book) : write_animation(job.path, *book);
+  auto made = flame_pages(job.model, taken, pages);
+  if (!made) return made.error();
+  const auto draw = [&](std::size_t k) {
+    job.terminal.progress("drawing", static_cast<double>(k + 1) / static_cast<double>(count));
+    return made->draw(k);
+  };
+  if (!atlas) return write_animation(job.path, made->book, count, draw);
+  for (std::size_t k = 0; k < count; ++k) made->book.frames.push_back(draw(k));
+  made->book.columns = columns;
+  return write_atlas(job.path, made->book);
 }
 
 // Writes OUT.vat.png and OUT.vat.json.
@@ -199,10 +213,8 @@ Result<void> check_flags(const Arguments& arguments, std::string extension, bool
   if (extension != ".png") {
     if (auto ok = refuse(arguments, {"columns"}, nothing + "is no atlas"); !ok) return ok;
   }
-  if (arguments.has("input") && (arguments.has("columns") || arguments.has("loop"))) {
-    return Error{"--input does not go with --columns, or with --loop, which is a steady play"};
-  }
-  const auto whole = refuse(arguments, {"seconds"}, "does nothing beside --input, which is played whole");
+  auto whole =
+      refuse(arguments, {"seconds", "loop", "columns"}, "does not go with --input, which is played once, whole");
   if (arguments.has("input") && !whole) return whole;
   if (extension == ".glb" || extension == ".vat.png" || extension == ".json") {
     if (auto ok = refuse(arguments, {"frames"}, nothing + "holds every frame"); !ok) return ok;
@@ -232,14 +244,13 @@ Result<void> run_export(const Arguments& arguments, Terminal& terminal) {
   if (!model) return model.error();
   const auto language = plant_language(*model, extension);
   if (auto ok = check_flags(arguments, extension, language || script); !ok) return ok;
-  Job job{*model, arguments, path};
+  Job job{*model, arguments, terminal, path};
   if (language || script) return write_model_source(job, language, terminal);
   const auto taken = take_from(*model, arguments, terminal, write == write_gltf || write == write_vertices);
   if (!taken) return taken.error();
   job.frames = taken->frames;
-  if (auto ok = write(job, *taken); !ok) {
+  if (auto ok = write(job, *taken); !ok)
     return ok.error().message.starts_with(path) ? ok : Error{path + ": " + ok.error().message};
-  }
   terminal.add("output", path);
   const double rate = taken->rate_hz * static_cast<double>(job.frames) / static_cast<double>(taken->frames);
   terminal.say("wrote " + path + ": " + std::to_string(job.frames) + " frames at " + shown(rate, 5) + " a second" +

@@ -25,20 +25,19 @@ Result<void> plot_channels(const std::string& path, const Report& report, Termin
   return {};
 }
 
-bool is_outline(const Recording& recording) { return find_channel(recording, "p0.x").has_value(); }
-
 Result<void> look_at_recordings(const Arguments& arguments, Terminal& terminal) {
   const auto preparation = preparation_of(arguments);
   if (!preparation) return preparation.error();
   std::vector<Recording> recordings;
   for (const std::string& path : arguments.positionals()) {
+    if (!is_table(path)) return Error{path + ": is no table, expected recordings, or a single model to look at"};
     auto recording = read_table(path, arguments, {.rate_hz = 1, .every_column = !arguments.has("outputs")});
     if (recording) recording = prepare(*recording, *preparation);
     if (!recording) return recording.error();
     recordings.push_back(std::move(*recording));
   }
   Report report = advise(recordings.front());
-  if (recordings.size() > 1 || is_outline(recordings.front())) {
+  if (recordings.size() > 1 || find_channel(recordings.front(), "p0.x")) {
     auto motion = outline_motion(recordings);
     if (!motion) return motion.error();
     report.append(std::move(*motion));

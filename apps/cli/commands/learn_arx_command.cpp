@@ -111,8 +111,9 @@ Result<ArxPart> part_of_tables(const ArxRecipe& recipe, const Arguments& argumen
 // Merges the named part files. Errors: a file that cannot be read, is no part, is damaged, or is of another model than
 // the first (each names the file); a number of parts other than --expect; a flag that needs rows or contradicts them.
 Result<ArxPart> merged_parts(const Arguments& arguments) {
-  const auto settled = refuse(arguments, {"search", "range", "inputs", "outputs", "na", "nb", "nk", "coupling"},
-                              "does not go with --merge: parts hold no rows, but channels and orders");
+  const auto settled =
+      refuse(arguments, {"search", "range", "inputs", "outputs", "columns", "rate", "dt", "na", "nb", "nk", "coupling"},
+             "does not go with --merge: parts hold no rows, but channels and orders");
   if (!settled) return settled.error();
   const auto& paths = arguments.positionals();
   auto whole = read_part(paths.front());
@@ -271,20 +272,20 @@ Result<ArxRecipe> recipe_of(const Arguments& arguments) {
   const auto preparation = preparation_of(arguments);
   if (!preparation) return preparation.error();
   recipe.preparation = *preparation;
-  const bool simulation = recipe.focus == ArxFocus::kSimulation;
-  if ((arguments.has("partial") || arguments.on("merge")) && (arguments.has("prepare") || simulation)) {
-    return Error{std::string(simulation ? "--focus simulation" : "--prepare") +
+  const bool focused = recipe.focus != ArxFocus::kPrediction;
+  if ((arguments.has("partial") || arguments.on("merge")) && (arguments.has("prepare") || focused)) {
+    return Error{(focused ? "--focus " + arguments.text("focus") : "--prepare") +
                  " needs the recordings in one place: learn without --partial and --merge"};
   }
   if (recipe.kernel != ArxKernel::kNone && recipe.focus != ArxFocus::kPrediction) {
     return Error{"--kernel chooses the coefficients itself: leave --focus " + arguments.text("focus") + " out"};
   }
-  for (const std::string& name : recipe.inputs) {
-    if (std::count(recipe.inputs.begin(), recipe.inputs.end(), name) > 1) {
-      return Error{"--inputs names '" + name + "' twice"};
+  for (const auto& [flag, names] : {std::pair{"--inputs", &recipe.inputs}, {"--outputs", &recipe.outputs}}) {
+    for (const std::string& name : *names) {
+      if (std::ranges::count(*names, name) > 1) return Error{std::string(flag) + " names '" + name + "' twice"};
+      if (names == &recipe.outputs || std::ranges::count(recipe.outputs, name) == 0) continue;
+      return Error{"'" + name + "' is named in --inputs and in --outputs; it is one of them"};
     }
-    if (std::count(recipe.outputs.begin(), recipe.outputs.end(), name) == 0) continue;
-    return Error{"'" + name + "' is named in --inputs and in --outputs; it is one of them"};
   }
   if (arguments.has("partial") && arguments.has("search")) {
     return Error{"--partial is of one model; --search tries many: search first, then fit the best orders in parts"};
@@ -307,7 +308,7 @@ Result<Fit> learned_from_memory(ArxRecipe recipe, const Arguments& arguments, Te
     if (!search) return search.error();
     recipe.search = std::move(*search);
   }
-  const auto recordings = in_range(std::move(*whole), arguments);
+  const auto recordings = in_range(std::move(*whole), arguments, terminal);
   if (!recordings) return recordings.error();
   return learn(*recordings, recipe, terminal.progress());
 }
@@ -318,9 +319,9 @@ Result<Fit> learned(const ArxRecipe& recipe, const Arguments& arguments, Termina
     if (!merged) return merged.error();
     return merged->finish(recipe, terminal.progress());
   }
-  // A search, a preparation, --nk auto and --focus simulation need all recordings in memory.
+  // A search, a preparation, --nk auto and a focus other than prediction need all recordings in memory.
   const bool whole = arguments.has("search") || arguments.has("prepare") || !recipe.nk;
-  if (whole || recipe.focus == ArxFocus::kSimulation || !too_large(arguments)) {
+  if (whole || recipe.focus != ArxFocus::kPrediction || !too_large(arguments)) {
     return learned_from_memory(recipe, arguments, terminal);
   }
   const auto all = part_of_tables(recipe, arguments, terminal);
@@ -337,7 +338,7 @@ Result<void> run_learn_arx(const Arguments& arguments, Terminal& terminal) {
   if (arguments.has("range")) fit->model.training.recipe.push_back({"range", arguments.text("range")});
   const std::string output = model_path(arguments);
   if (spectral_radius(std::get<ArxModel>(fit->model.dynamics)) < 1) {
-    if (auto ok = hand_over(*fit, output, terminal); !ok) return ok;
+    if (auto ok = hand_over(fit, arguments, terminal); !ok) return ok;
   } else {
     // Reached with --keep-unstable only: the report is complete, so the exit status is 0 although no model is written.
     terminal.show(fit->report);
@@ -364,7 +365,8 @@ std::vector<Flag> arx_flags() {
        "has their numbers as responses"},
       {"memory", Kind::kInteger, "MIB", "1024",
        "where learning would take more than this, recordings are read a stretch at a time, which takes 40 (not "
-       "with --search, --prepare, --nk auto or --focus simulation); held-out rows and residuals are not judged then"},
+       "with --search, --prepare, --nk auto, --focus simulation or auto); held-out rows and residuals are not judged "
+       "then"},
   };
   const auto of_orders =
       order_flags({"4", "", "; auto finds every input's delay to every output, auto:N those up to N samples"});

@@ -11,42 +11,25 @@
 namespace wisp::cli {
 namespace {
 
-// Applies --range to recordings of falls. A pair (windy and calm) stays whole, as a gust needs all repeated falls.
-Result<std::vector<Recording>> falls_in_range(std::vector<Recording> recordings, const Arguments& arguments) {
-  for (Recording& recording : recordings) {
-    if (find_attribute(recording, "pair")) continue;
-    auto part = in_range(std::move(recording), arguments, "range");
-    if (!part) return part.error();
-    recording = std::move(*part);
-  }
-  return recordings;
-}
-
-// Reads recordings. With --skip-bad those without valid motion are skipped; otherwise learning reports the error.
+// Reads recordings of falls, within --range. A pair (windy and calm) stays whole, as a gust needs all repeated falls.
+// With --skip-bad those without valid motion are skipped; otherwise learning reports the error.
 Result<std::vector<Recording>> read_motions(const Arguments& arguments, Terminal& terminal) {
-  auto recordings = read_tables(arguments.positionals(), arguments, terminal, motion_table(arguments));
-  if (!recordings || !arguments.on("skip-bad")) return recordings;
-  std::erase_if(*recordings, [&](const Recording& recording) {
-    const auto sound = check_motion(recording);
-    return !sound && leave_out(recording.source, sound.error(), arguments, terminal);
+  return read_all(arguments.positionals(), arguments, terminal, [&](const std::string& path) -> Result<Recording> {
+    auto falls = read_table(path, arguments, motion_table(arguments));
+    if (falls && !find_attribute(*falls, "pair")) falls = in_range(*std::move(falls), arguments, "range");
+    if (!falls || !arguments.on("skip-bad")) return falls;
+    const auto sound = check_motion(*falls);
+    return sound ? std::move(falls) : sound.error();
   });
-  if (recordings->empty()) return Error{arguments.positionals().front() + ": none of the recordings can be used"};
-  return recordings;
 }
 
 Result<void> run_learn_chain(const Arguments& arguments, Terminal& terminal) {
   ChainRecipe recipe;
   if (auto ok = read_recipe(arguments, recipe); !ok) return ok;
   recipe.name = model_name(arguments);
-  const std::string output = model_path(arguments);
-  if (auto ok = check_writable(output); !ok) return ok;
-  auto read = read_motions(arguments, terminal);
-  if (!read) return read.error();
-  const auto recordings = falls_in_range(std::move(*read), arguments);
+  const auto recordings = read_motions(arguments, terminal);
   if (!recordings) return recordings.error();
-  const auto fit = learn(*recordings, recipe, terminal.progress());
-  if (!fit) return fit.error();
-  return hand_over(*fit, output, terminal);
+  return hand_over(learn(*recordings, recipe, terminal.progress()), arguments, terminal);
 }
 
 std::vector<Flag> flags(const ChainRecipe& defaults) {

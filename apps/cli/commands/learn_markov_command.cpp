@@ -33,12 +33,12 @@ Result<void> run_learn_switched(const Arguments& arguments, Terminal& terminal) 
   if (!recipe) return recipe.error();
   auto whole = read_tables(arguments.positionals(), arguments, terminal);
   if (!whole) return whole.error();
-  const auto recordings = in_range(std::move(*whole), arguments);
+  const auto recordings = in_range(std::move(*whole), arguments, terminal);
   if (!recordings) return recordings.error();
   auto fit = learn(*recordings, *recipe, terminal.progress());
   if (!fit) return fit.error();
   if (arguments.has("range")) fit->model.training.recipe.push_back({"range", arguments.text("range")});
-  return hand_over(*fit, model_path(arguments), terminal);
+  return hand_over(fit, arguments, terminal);
 }
 
 std::vector<Flag> switched_flags() {
@@ -57,9 +57,7 @@ Result<void> run_learn_flicker(const Arguments& arguments, Terminal& terminal) {
   if (!recipe.output.empty()) plain.outputs = {recipe.output};
   const auto recordings = read_tables(arguments.positionals(), arguments, terminal, plain);
   if (!recordings) return recordings.error();
-  const auto fit = learn(*recordings, recipe, terminal.progress());
-  if (!fit) return fit.error();
-  return hand_over(*fit, model_path(arguments), terminal);
+  return hand_over(learn(*recordings, recipe, terminal.progress()), arguments, terminal);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // `wisp learn outline` and its preset `wisp learn flame`: learn a model of an outline, from clips or recordings.
 
-#include <cstdlib>
+#include <cstdio>
 
 #include "commands/commands.hpp"
 #include "flags/capture_flags.hpp"
@@ -18,12 +18,8 @@ Result<ExtinctionRecipe> extinction_recipe(const Arguments& arguments) {
   if (text == "off") return ExtinctionRecipe{};
   if (text == "auto") return ExtinctionRecipe{ExtinctionSource::kAuto};
   ExtinctionRecipe recipe{ExtinctionSource::kGiven};
-  char* end = nullptr;
-  recipe.level = std::strtod(text.c_str(), &end);
-  const bool comma = end != text.c_str() && *end == ',';
-  const char* second = comma ? end + 1 : end;
-  if (comma) recipe.seconds = std::strtod(second, &end);
-  if (!comma || end == second || *end != 0) {
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%lf,%lf%c", &recipe.level, &recipe.seconds, &rest) != 2) {
     return Error{"--blow-out: found \"" + text + "\", expected auto, off, or LEVEL,SECONDS such as 1.5,0.3"};
   }
   const auto fits = check(Extinction{.level = recipe.level, .seconds = recipe.seconds}, 1, 0);
@@ -32,7 +28,6 @@ Result<ExtinctionRecipe> extinction_recipe(const Arguments& arguments) {
 }
 
 Result<void> run_learn_outline(const Arguments& arguments, Terminal& terminal) {
-  const std::string path = model_path(arguments);
   const auto extinction = extinction_recipe(arguments);
   if (!extinction) return extinction.error();
   OutlineRecipe recipe{.extinction = *extinction};
@@ -40,9 +35,7 @@ Result<void> run_learn_outline(const Arguments& arguments, Terminal& terminal) {
   recipe.name = model_name(arguments);
   const auto recordings = outline_recordings(arguments.positionals(), arguments, terminal);
   if (!recordings) return recordings.error();
-  const auto fit = wisp::learn(*recordings, recipe, terminal.progress());
-  if (!fit) return fit.error();
-  return hand_over(*fit, path, terminal);
+  return hand_over(wisp::learn(*recordings, recipe, terminal.progress()), arguments, terminal);
 }
 
 struct Preset {

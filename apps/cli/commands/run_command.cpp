@@ -10,6 +10,7 @@
 #include "films/candle_pictures.hpp"
 #include "films/leaf_film.hpp"
 #include "films/looped.hpp"
+#include "flags/recipe_flags.hpp"
 #include "flags/recordings.hpp"
 #include "flags/wind_input.hpp"
 #include "terminal.hpp"
@@ -404,7 +405,7 @@ Result<void> run_run(const Arguments& arguments, Terminal& terminal) {
 }
 
 std::vector<Flag> all_flags() {
-  return {
+  std::vector<Flag> flags{
       {"output", Kind::kOutput, "OUT", "", "what to write: OUT.csv, OUT.png or OUT.mp4", {}, true},
       {"frames", Kind::kInteger, "N", "", "frames at the model's rate; default: as many as --input has"},
       loop_flag(),
@@ -439,6 +440,9 @@ std::vector<Flag> all_flags() {
        "be near this place (metres from where it starts, z up) after S seconds; a fall takes some 0.75 m of height a "
        "second"},
   };
+  for (const char* of_table : {"inputs", "own-gain", "columns", "rate", "dt"})
+    flag_named(flags, of_table).with = "input";
+  return flags;
 }
 
 }  // namespace

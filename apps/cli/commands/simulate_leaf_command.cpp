@@ -70,13 +70,6 @@ Result<MeasuredWind> track_from(const std::string& path) {
   return track;
 }
 
-// Checks that a gust begins before the recording ends.
-Result<void> check_pairs(const Arguments& arguments) {
-  if (!arguments.on("pairs") || arguments.number("seconds") >= kMinPairSeconds) return {};
-  return Error{"--seconds is " + arguments.text("seconds") + ", expected at least " + shown(kMinPairSeconds) +
-               " with --pairs: gusts begin half a second after the recording"};
-}
-
 Result<void> take_wind(const Arguments& arguments, LeafDropsOptions& drops) {
   const std::string& word = arguments.text("wind");
   drops.gusts = word == "gusts";
@@ -95,7 +88,10 @@ Result<LeafPairsOptions> options_from(const Arguments& arguments, Terminal& term
   LeafPairsOptions options;
   LeafDropsOptions& drops = options.drops;
   if (auto good = take_wind(arguments, drops); !good) return good.error();
-  if (auto good = check_pairs(arguments); !good) return good.error();
+  if (arguments.on("pairs") && arguments.number("seconds") < kMinPairSeconds) {
+    return Error{"--seconds is " + arguments.text("seconds") + ", expected at least " + shown(kMinPairSeconds) +
+                 " with --pairs: gusts begin half a second after the recording"};
+  }
   drops.drops = arguments.integer("drops");
   drops.seconds = arguments.number("seconds");
   drops.rate_hz = arguments.number("rate");
@@ -107,18 +103,11 @@ Result<LeafPairsOptions> options_from(const Arguments& arguments, Terminal& term
 // Returns the path of the recording of calm air: REC.calm.csv for REC.csv.
 std::filesystem::path calm_path(std::filesystem::path path) { return path.replace_extension(".calm.csv"); }
 
-Result<Recording> write_drops(const std::filesystem::path& path, const LeafPairsOptions& options) {
-  auto recording = simulate_leaf_drops(options.drops);
-  if (!recording) return recording;
-  if (auto good = write_csv(path, *recording); !good) return good.error();
-  return recording;
-}
-
-Result<Recording> write_pairs(const std::filesystem::path& path, const LeafPairsOptions& options, Terminal& terminal) {
+// Simulates falls in gusts, and writes the same falls in calm air beside `path`.
+Result<Recording> windy_half(const std::filesystem::path& path, const LeafPairsOptions& options, Terminal& terminal) {
   auto pairs = simulate_leaf_pairs(options);
   if (!pairs) return pairs.error();
   if (auto good = write_csv(calm_path(path), pairs->calm); !good) return good.error();
-  if (auto good = write_csv(path, pairs->windy); !good) return good.error();
   terminal.add("calm", calm_path(path).string());
   terminal.add("clones", options.clones);
   return std::move(pairs->windy);
@@ -134,8 +123,9 @@ Result<void> run_simulate_leaf(const Arguments& arguments, Terminal& terminal) {
   if (arguments.has("video"))
     if (auto good = check_film_name(arguments.text("video")); !good) return good;
   const bool pairs = arguments.on("pairs");
-  const auto recording = pairs ? write_pairs(path, options, terminal) : write_drops(path, options);
+  const auto recording = pairs ? windy_half(path, options, terminal) : simulate_leaf_drops(options.drops);
   if (!recording) return recording.error();
+  if (auto good = write_csv(path, *recording); !good) return good;
   if (arguments.has("video")) {
     LeafFilmOptions film;
     film.style.length = static_cast<float>(options.drops.leaf.length);

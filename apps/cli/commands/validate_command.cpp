@@ -37,11 +37,12 @@ Result<ValidationSubject> subject_of(const std::string& path, const Model& model
     auto recording = read_table(path, arguments);
     if (!recording) return recording.error();
     subject.recording = std::move(*recording);
-    if (arguments.has("clip")) subject.clip.path = arguments.text("clip");
-    subject.clip.first_frame = first_frame_of(subject.recording);
   } else {
     auto options = capture_options(arguments);
     if (!options) return options.error();
+    auto of_table =
+        refuse(arguments, {"clip", "inputs", "outputs", "columns", "dt"}, "is of a table, and " + path + " is a clip");
+    if (!of_table) return of_table.error();
     const auto curve = curve_of(model);
     if (!curve) return curve.error();
     options->curve = *curve;
@@ -50,8 +51,9 @@ Result<ValidationSubject> subject_of(const std::string& path, const Model& model
     for (const std::string& warning : clip->report.warnings) terminal.warn(warning);
     subject.recording = std::move(clip->recording);
     subject.captured = std::move(clip->report);
-    subject.clip.path = path;
   }
+  const std::string named = arguments.has("clip") ? arguments.text("clip") : "";
+  subject.clip = clip_of(subject.recording, subject.captured ? path : named);
   if (arguments.has("rate")) subject.clip.rate_hz = arguments.number("rate");
   if (arguments.has("frames")) subject.clip.first_frame = arguments.samples("frames").first - 1;
   if (arguments.has("range")) subject.clip.first_frame += arguments.samples("range").first - 1;
@@ -173,6 +175,8 @@ Result<void> film(const Model& model, const Recording& real, const Arguments& ar
 Result<void> check_chain_flags(const Arguments& arguments) {
   auto ok = refuse(arguments, {"overlay", "film-strip", "clip"},
                    "is for outlines; this model is a segment chain (--film films falls)");
+  if (ok)
+    ok = refuse(arguments, {"steps", "initial"}, "is for models that predict rows, which a segment chain does not");
   return ok && arguments.has("film") ? check_film_name(arguments.text("film")) : ok;
 }
 
@@ -227,13 +231,17 @@ Result<void> run_validate(const Arguments& arguments, Terminal& terminal) {
   if (!model) return model.error();
   const auto steps = steps_in(arguments);
   if (!steps) return steps.error();
-  auto of_films = refuse(arguments, {"frames", "channel", "flame", "dark", "region", "wind-measure", "own-gain"},
-                         "is for models of outlines, which this model is not; rows are chosen by --range");
+  auto of_films =
+      refuse(arguments, {"frames", "channel", "flame", "dark", "region", "wind-measure", "own-gain", "align"},
+             "is for models of outlines, which this model is not; rows are chosen by --range");
   if (!std::holds_alternative<OutlineView>(model->view) && !of_films) return of_films;
   if (std::holds_alternative<ChainModel>(model->dynamics)) return validate_chain(*model, arguments, terminal);
   if (!std::holds_alternative<OutlineView>(model->view)) return validate_plain(*model, *steps, arguments, terminal);
   auto filmed = refuse(arguments, {"film"}, "is for segment chains of poses; this model is of an outline");
+  if (filmed) filmed = refuse(arguments, {"initial"}, "is for plain models; this model is of an outline");
   if (!filmed) return filmed;
+  if (arguments.has("film-strip") && std::filesystem::path(arguments.text("film-strip")).extension() == ".svg")
+    return Error{"--film-strip " + arguments.text("film-strip") + ": a strip has pixels, expected a name in .png"};
   if (positionals.size() > 2) {
     return Error{positionals[2] + ": is one file too many, only plain ARX models are judged on several"};
   }

@@ -55,19 +55,28 @@ double height_of(const Outline& outline) {
 
 }  // namespace
 
-int number_attribute(const Recording& recording, const char* name) {
-  const auto values = numbers_attribute(recording, name);
-  return values && *values && (*values)->size() == 1 ? static_cast<int>((**values)[0]) : 0;
-}
-
-std::size_t first_frame_of(const Recording& recording) {
-  return static_cast<std::size_t>(std::max(1, number_attribute(recording, "first_frame")) - 1);
+ClipFrames clip_of(const Recording& recording, std::filesystem::path path) {
+  const auto number = [&](const char* name) {
+    const auto values = numbers_attribute(recording, name);
+    const bool one = values && *values && (*values)->size() == 1 && std::abs((**values)[0]) < 1e9;
+    return one ? static_cast<int>((**values)[0]) : 0;
+  };
+  ClipFrames clip{.path = std::move(path), .width = number("width"), .height = number("height")};
+  clip.first_frame = static_cast<std::size_t>(std::max(1, number("first_frame")) - 1);
+  if (std::filesystem::is_directory(clip.path)) clip.rate_hz = recording.rate_hz;
+  return clip;
 }
 
 Result<void> for_each_row(const ClipFrames& clip, std::size_t last_row,
                           const std::function<Result<void>(std::size_t, const std::function<Image()>&)>& visit) {
   auto reader = VideoReader::open(clip.path, {.rate_hz = clip.rate_hz});
   if (!reader) return reader.error();
+  const auto [width, height] = std::pair(reader->info().width, reader->info().height);
+  if (clip.width > 0 && clip.height > 0 && (width != clip.width || height != clip.height)) {
+    const auto size = [](int w, int h) { return std::to_string(w) + " × " + std::to_string(h); };
+    return Error{clip.path.string() + ": its pictures are " + size(width, height) + " pixels, expected " +
+                 size(clip.width, clip.height) + ": is it the clip that the recording was captured from?"};
+  }
   for (;;) {
     const auto frame = reader->next();
     if (!frame) return frame.error();
@@ -189,10 +198,8 @@ Result<FilmedFlame> filmed_flame(const Recording& recording, int height) {
   if (!source || heights.empty()) {
     return Error{recording.source + ": does not name the film that it was captured from, or has no outline"};
   }
-  const std::array size{number_attribute(recording, "width"), number_attribute(recording, "height")};
-  FilmedFlame out(*rows, median_of(std::move(heights)), size, {}, height);
-  ClipFrames clip{.path = std::string(*source), .first_frame = first_frame_of(recording)};
-  if (std::filesystem::is_directory(clip.path)) clip.rate_hz = recording.rate_hz;
+  const ClipFrames clip = clip_of(recording, *source);
+  FilmedFlame out(*rows, median_of(std::move(heights)), {clip.width, clip.height}, {}, height);
   if (const auto watched = out.watch(clip, *rows); !watched) return watched.error();
   if (!out.known()) return Error{clip.path.string() + ": no frame of it has an outline of " + recording.source};
   return out;

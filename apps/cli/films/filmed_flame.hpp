@@ -21,16 +21,14 @@ struct ClipFrames {
   std::filesystem::path path;  ///< empty: no clip, pictures are black
   double rate_hz = 0;          ///< frame rate of a folder of images; 0 for films
   std::size_t first_frame = 0;
+  int width = 0, height = 0;  ///< of a picture as recorded, pixels; 0: unknown
 };
 
-/// Returns the value of an attribute that is one number, such as the clip's width; 0 if it is not recorded.
-int number_attribute(const Recording& recording, const char* name);
-
-/// Returns the index, 0-based, of the clip's frame that became the recording's first row.
-std::size_t first_frame_of(const Recording& recording);
+/// Returns the clip at `path` from which a recording was captured, as the recording describes it.
+ClipFrames clip_of(const Recording& recording, std::filesystem::path path);
 
 /// Visits the clip's frames from the first row to `last_row`; `visit` takes the row and a function that returns its
-/// image. Errors: the clip cannot be read; those of `visit`.
+/// image. Errors: the clip cannot be read, or its pictures have another size than recorded; those of `visit`.
 Result<void> for_each_row(const ClipFrames& clip, std::size_t last_row,
                           const std::function<Result<void>(std::size_t, const std::function<Image()>&)>& visit);
 

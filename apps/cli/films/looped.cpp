@@ -53,7 +53,7 @@ Result<Take> take_from(const Model& model, const Arguments& arguments, Terminal&
     for (const float value : track->at(frame)) options.schedule.push_back(value);
   }
   if (arguments.has("input")) options.seconds = static_cast<double>(track->rows()) / model.rate_hz;
-  auto taken = take(model, options);
+  auto taken = take(model, options, terminal.progress());
   if (!taken) return Error{arguments.positional() + ": " + taken.error().message};
   terminal.add("frames", taken->frames);
   terminal.add("instances", taken->instances);
@@ -93,9 +93,7 @@ Recording recording_of(const Model& model, const Take& taken, double wind, const
   Recording recording = played_channels(model, instances, seed);
   for (std::size_t frame = 0; frame < taken.frames; ++frame) {
     std::size_t channel = 0;
-    while (channel < model.inputs.size()) {
-      recording.channels[channel++].samples.push_back(wind);
-    }
+    while (channel < model.inputs.size()) recording.channels[channel++].samples.push_back(wind);
     for (std::size_t k = 0; k < taken.instances; ++k) {
       for (const float value : taken.at(frame, k)) recording.channels[channel++].samples.push_back(value);
     }

@@ -49,15 +49,6 @@ void draw_row(Image& image, const OverlayContent& content, std::size_t row, cons
   draw_legend(image, legend, layout.legend);
 }
 
-Result<int> attribute_number(const Recording& recording, const char* name) {
-  const int value = number_attribute(recording, name);
-  if (value < 16 || value > kLargestImageSide) {
-    return Error{recording.source + ": does not say its picture's " + name +
-                 "; validate against the clip itself for an overlay"};
-  }
-  return value;
-}
-
 std::string seconds_text(double seconds) {
   char text[32];
   std::snprintf(text, sizeof text, "%.2f s", seconds);
@@ -144,11 +135,12 @@ Image drawn(const Outline& pixels, const StripContent& content, const FilmedFlam
 
 Result<void> write_overlay(const std::filesystem::path& out, const ClipFrames& clip, const Recording& recording,
                            const OverlayContent& content, Terminal& terminal) {
-  const auto width = attribute_number(recording, "width"), height = attribute_number(recording, "height");
-  if (!width) return width.error();
-  if (!height) return height.error();
-  const Layout layout{.times = enlargement(*height), .legend = roomier_corner(content.captured, *width)};
-  const int film_width = *width * layout.times, film_height = *height * layout.times;
+  if (std::min(clip.width, clip.height) < 16 || std::max(clip.width, clip.height) > kLargestImageSide) {
+    return Error{recording.source + ": does not say its picture's width and height; validate against the clip itself " +
+                 "for an overlay"};
+  }
+  const Layout layout{.times = enlargement(clip.height), .legend = roomier_corner(content.captured, clip.width)};
+  const int film_width = clip.width * layout.times, film_height = clip.height * layout.times;
   auto film =
       VideoWriter::create(out, {.width = film_width, .height = film_height, .rate_hz = recording.rate_hz, .crf = 17});
   if (!film) return film.error();
@@ -157,8 +149,8 @@ Result<void> write_overlay(const std::filesystem::path& out, const ClipFrames& c
 }
 
 Result<void> write_film_strip(const std::filesystem::path& out, const ClipFrames& clip, const StripContent& content) {
-  FilmedFlame flame(content.captured, content.pixels_per_unit, {content.clip_width, content.clip_height},
-                    space_of(content), 2 * kStripCellHeight);
+  FilmedFlame flame(content.captured, content.pixels_per_unit, {clip.width, clip.height}, space_of(content),
+                    2 * kStripCellHeight);
   const auto frames = flame.watch(clip, content.captured, content.rows);
   if (!frames) return frames.error();
   FilmStrip picture{.rows = {{clip.path.empty() ? "captured" : "filmed", {}}, {content.synthesized_caption, {}}},

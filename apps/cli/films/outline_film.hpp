@@ -30,8 +30,7 @@ struct StripContent {
   const OutlineRows& captured;     ///< all rows, in pixels
   const OutlineRows& synthesized;  ///< all rows, in pixels
   double pixels_per_unit = 1;
-  int clip_width = 0, clip_height = 0;  ///< pixels; 0: unknown
-  bool flame = true;                    ///< draw a flame; false: a plain shape
+  bool flame = true;  ///< draw a flame; false: a plain shape
   std::string synthesized_caption;
 };
 

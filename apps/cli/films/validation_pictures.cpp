@@ -82,15 +82,6 @@ PlotSheet spectrum_sheet(const Report& report) {
   return sheet;
 }
 
-// Writes residual standard deviations per control point with their 95 % intervals, and the series of the report of
-// validate_outline(): tip and inputs over time, spectra of the tip; each as PNG and SVG, into a folder that is created
-// if missing. Errors: a file cannot be written.
-Result<void> write_validation_figures(const fs::path& folder, const Model& model, const Report& report) {
-  if (auto ok = write_figure(folder, "residual-noise", residual_sheet(model)); !ok) return ok;
-  if (auto ok = write_figure(folder, "tip", time_sheet(report)); !ok) return ok;
-  return write_figure(folder, "flicker", spectrum_sheet(report));
-}
-
 constexpr std::size_t kColumns = 12;
 
 // Returns the horizontal offset of the tip from the middle of the base; NaN without an outline.
@@ -133,8 +124,6 @@ Result<void> draw_validation(const ValidatedOutline& found, const Model& model, 
         .captured = found.captured,
         .synthesized = found.played,
         .pixels_per_unit = found.pixels_per_unit,
-        .clip_width = number_attribute(subject.recording, "width"),
-        .clip_height = number_attribute(subject.recording, "height"),
         .flame = is_flame(model),
         .synthesized_caption = model.inputs.empty() ? "synthesized" : "synthesized, in the same wind"};
     if (auto ok = write_film_strip(pictures.film_strip, subject.clip, content); !ok) return ok;
@@ -142,9 +131,11 @@ Result<void> draw_validation(const ValidatedOutline& found, const Model& model, 
   }
   const std::string& folder = pictures.figures;
   if (folder.empty()) return {};
-  if (auto ok = write_validation_figures(folder, model, found.report); !ok) return ok;
+  if (auto ok = write_figure(folder, "residual-noise", residual_sheet(model)); !ok) return ok;
+  if (auto ok = write_figure(folder, "tip", time_sheet(found.report)); !ok) return ok;
+  if (auto ok = write_figure(folder, "flicker", spectrum_sheet(found.report)); !ok) return ok;
   if (subject.captured) {
-    const std::size_t skipped = first_frame_of(subject.recording);
+    const std::size_t skipped = clip_of(subject.recording, {}).first_frame;
     if (auto ok = write_clip_figures(folder, subject.clip.path, skipped, *subject.captured); !ok) return ok;
   }
   terminal.say("wrote figures to " + folder);

@@ -79,6 +79,15 @@ Result<ClipCapture> capture_options(const Arguments& arguments) {
   return options;
 }
 
+Result<void> check_present(const Arguments& arguments) {
+  for (const std::string& path : arguments.positionals()) {
+    std::error_code none;
+    if (arguments.on("skip-bad") || std::filesystem::exists(path, none)) continue;
+    return Error{path + ": no such file; check the path"};
+  }
+  return {};
+}
+
 std::string of_clips(const std::string& table) {
   return "is of a clip, and " + table + " is a table; give the clip, or leave it out";
 }
@@ -102,9 +111,17 @@ Result<std::vector<Recording>> outline_recordings(const std::vector<std::string>
     terminal.verdict(path, clip->report);
     return std::move(clip->recording);
   };
+  if (auto ok = check_present(arguments); !ok) return ok.error();
   return read_all(paths, arguments, terminal, [&](const std::string& path) {
     auto recording = recording_of(path);
-    if (recording && !options->curve) options->curve = curve_of(*recording);
+    const auto curve = recording ? curve_of(*recording) : std::nullopt;
+    const int points = curve ? static_cast<int>(curve->knots.size()) - 4 : options->points;
+    if (arguments.given("points") && points != options->points) {
+      recording = Error{"--points " + arguments.text("points") + ": " + path + " has " + std::to_string(points) +
+                        " control points, expected as many in every recording: leave one of the two out"};
+    } else if (!options->curve) {
+      options->curve = curve;
+    }
     return recording;
   });
 }

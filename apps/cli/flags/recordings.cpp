@@ -124,7 +124,7 @@ Result<std::vector<Recording>> read_all(const std::vector<std::string>& paths, c
       return recording.error();
     }
   }
-  if (recordings.empty()) return Error{"none of the recordings can be used"};
+  if (recordings.empty()) return Error{paths.front() + ": none of the recordings can be used"};
   return recordings;
 }
 
@@ -144,13 +144,20 @@ Result<Recording> in_range(Recording recording, const Arguments& arguments, std:
   return slice(recording, range.first - 1, range.last);
 }
 
-Result<std::vector<Recording>> in_range(std::vector<Recording> recordings, const Arguments& arguments) {
+Result<std::vector<Recording>> in_range(std::vector<Recording> recordings, const Arguments& arguments,
+                                        Terminal& terminal) {
+  std::vector<Recording> parts;
   for (Recording& recording : recordings) {
+    const std::string source = recording.source;
     auto part = in_range(std::move(recording), arguments, "range");
-    if (!part) return part.error();
-    recording = std::move(*part);
+    if (part) {
+      parts.push_back(*std::move(part));
+    } else if (!leave_out(source, part.error(), arguments, terminal)) {
+      return part.error();
+    }
   }
-  return recordings;
+  if (parts.empty()) return Error{"none of the recordings can be used"};
+  return parts;
 }
 
 }  // namespace wisp::cli

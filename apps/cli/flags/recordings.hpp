@@ -51,8 +51,9 @@ Result<std::vector<Recording>> read_tables(const std::vector<std::string>& paths
                                            Terminal& terminal, const CsvOptions& otherwise = {});
 
 /// Returns the rows that `flag` (for several recordings: --range) selects, 1-based, inclusive; all if it is not given.
-/// Errors: the range reaches beyond the recording.
+/// Errors: the range reaches beyond the recording, which of several goes to leave_out(); none of several remains.
 Result<Recording> in_range(Recording recording, const Arguments& arguments, std::string_view flag);
-Result<std::vector<Recording>> in_range(std::vector<Recording> recordings, const Arguments& arguments);
+Result<std::vector<Recording>> in_range(std::vector<Recording> recordings, const Arguments& arguments,
+                                        Terminal& terminal);
 
 }  // namespace wisp::cli

@@ -16,7 +16,8 @@ namespace {
 std::vector<float> at_rate(const std::vector<double>& samples, double from_hz, double to_hz) {
   std::vector<double> held(samples.size());
   double last = 0;
-  for (std::size_t k = 0; k < samples.size(); ++k) held[k] = last = std::isnan(samples[k]) ? last : samples[k];
+  for (std::size_t k = 0; k < samples.size(); ++k)
+    held[k] = last = std::isnan(samples[k]) ? last : std::clamp(samples[k], -1e30, 1e30);
   if (held.empty()) return {};
   std::vector<float> out;
   const auto count =
@@ -61,6 +62,7 @@ Result<std::vector<std::string>> input_names(const Model& model, const Arguments
 // Checks that a model without inputs gets none.
 Result<void> check_drive(const Model& model, const Arguments& arguments) {
   const bool table = arguments.has("input");
+  if (table && arguments.given("wind")) return Error{"--wind is constant, and --input is not: leave one of them out"};
   if (!model.inputs.empty() || (!table && arguments.number("wind") == 0)) return {};
   return Error{
       std::string(table ? "--input" : "--wind") + " drives a model's inputs, and " + arguments.positional() +
@@ -97,8 +99,9 @@ Result<InputTrack> InputTrack::from(const Model& model, const Arguments& argumen
   }
   const std::string& path = arguments.text("input");
   if (!is_table(path)) {
-    if (arguments.on("own-gain"))
-      return Error{"--own-gain: is for recordings; the wind in a sound has the model's scale"};
+    auto of_table = refuse(arguments, {"own-gain", "inputs", "columns", "rate", "dt"},
+                           "is of a table; " + path + " is a sound, whose wind has the model's scale");
+    if (!of_table) return of_table.error();
     return heard(model, path);
   }
   const auto names = input_names(model, arguments);

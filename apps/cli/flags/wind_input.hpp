@@ -15,8 +15,8 @@ class InputTrack {
   /// Reads inputs from --input or --wind. A recording's channels are those of --inputs or those with the model's names,
   /// scaled by in_model_units() as in validate(), with --own-gain by their own strength, and resampled linearly to the
   /// model's rate; missing samples repeat the sample before. A sound file is converted to wind, which drives every
-  /// input. Errors: a model without inputs gets one; the recording cannot be read, lacks an input, lasts above 1e9
-  /// frames or, for a plain model, has another rate; a sound file without wind, or with --own-gain.
+  /// input. Errors: a model without inputs gets one; both flags; the recording cannot be read, lacks an input, lasts
+  /// above 1e9 frames or, for a plain model, has another rate; a sound file without wind, or with a flag of tables.
   static Result<InputTrack> from(const Model& model, const Arguments& arguments);
 
   /// Number of frames of the recording or sound; 0 for a constant.

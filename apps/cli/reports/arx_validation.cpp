@@ -64,15 +64,15 @@ Result<void> validate_plain(const Model& model, const std::vector<int>& steps, c
     return Error{arguments.positional() + ": is " + (switched ? "a switched model" : "not a model of an outline") +
                  ", for which --" + flag + " draws nothing"};
   }
+  auto starts = refuse(arguments, {"initial"}, "is for single models; a switched one starts from measured samples");
+  if (switched && !starts) return starts;
   std::vector<Recording> recordings;
   for (std::size_t k = 1; k < arguments.positionals().size(); ++k) {
     auto recording = table_for(model, arguments.positionals()[k], arguments);
     if (!recording) return recording.error();
     recordings.push_back(std::move(*recording));
   }
-  const ValidationOptions options{
-      steps, switched ? InitialState::kMeasured : *value_of<InitialState>(arguments.text("initial")),
-      arguments.has("figures")};
+  const ValidationOptions options{steps, *value_of<InitialState>(arguments.text("initial")), arguments.has("figures")};
   const auto report = validate(model, recordings, options, terminal.progress());
   if (!report) return report.error();
   terminal.show(*report);

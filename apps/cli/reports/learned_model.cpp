@@ -37,11 +37,13 @@ Result<void> check_writable(const std::string& path) {
   return Error{path + ": cannot be written: no file can be made in its folder"};
 }
 
-Result<void> hand_over(const Fit& fit, const std::string& path, Terminal& terminal) {
+Result<void> hand_over(const Result<Fit>& fit, const Arguments& arguments, Terminal& terminal) {
+  if (!fit) return fit.error();
+  const std::string path = model_path(arguments);
   if (!path.empty()) {
-    if (auto ok = write_model(path, fit.model); !ok) return ok;
+    if (auto ok = write_model(path, fit->model); !ok) return ok;
   }
-  terminal.show(fit.report);
+  terminal.show(fit->report);
   if (!path.empty()) {
     terminal.say("wrote " + path);
     terminal.add("output", path);

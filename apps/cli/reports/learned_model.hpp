@@ -21,8 +21,8 @@ std::string model_name(const Arguments& arguments);
 /// Checks before long work that a file of that name can be written; an empty name is accepted. Errors: as write_file().
 Result<void> check_writable(const std::string& path);
 
-/// Shows the report, and writes the model if `path` is not empty. Reports the path and the time since the command
-/// began. Errors: as write_model().
-Result<void> hand_over(const Fit& fit, const std::string& path, Terminal& terminal);
+/// Shows the report, and writes the model if model_path() is not empty. Reports the path and the time since the command
+/// began. Errors: that of the fit; as write_model().
+Result<void> hand_over(const Result<Fit>& fit, const Arguments& arguments, Terminal& terminal);
 
 }  // namespace wisp::cli
