@@ -1,15 +1,19 @@
 #include "base/verdict.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+#include <cstdio>
 
 namespace wisp {
 namespace {
 
 std::string number_text(double value, int digits) {
-  char text[400];  // the largest double has 309 digits before the point
-  return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, digits).ptr};
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", digits, value);
+  std::string out = text;
+  // Some locales' decimal point is a comma.
+  std::replace(out.begin(), out.end(), ',', '.');
+  return out;
 }
 
 void fill(std::string& sentence, const std::string& name, const std::string& value) {
