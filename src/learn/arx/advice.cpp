@@ -66,7 +66,7 @@ struct Subject {
 
 // Returns the last decimal place that the first 500 samples use, from 1 to 1e-9; 0 where they use more decimals.
 double last_digit(const Series& all) {
-  const std::span<const double> some(all.begin(), std::min<std::size_t>(500, all.size()));
+  const std::span<const double> some(all.data(), std::min<std::size_t>(500, all.size()));
   double unit = 1, most = 0;
   for (double x : some) most = std::max(most, std::abs(x));
   for (int digits = 0; digits <= 9; ++digits, unit /= 10) {
