@@ -20,8 +20,8 @@ using ::testing::IsEmpty;
 constexpr int kFunctionLines = 60;
 constexpr int kFolderSources = 25;
 constexpr int kPublicHeaders = 56;
-constexpr int kLinesTogether = 71'827;
-constexpr int kLinesOfLearn = 20'657;
+constexpr int kLinesTogether = 71'758;
+constexpr int kLinesOfLearn = 20'624;
 constexpr int kFlagsTogether = 83;
 constexpr std::size_t kFlagsOfACommand = 20;
 // Commands that have more flags than they should.

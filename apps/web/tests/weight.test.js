@@ -6,7 +6,7 @@ import { describe, it } from 'node:test';
 import { brotliCompressSync, gzipSync } from 'node:zlib';
 
 const dist = new URL('../dist/', import.meta.url);
-const MOST_LINES = 18_907;
+const MOST_LINES = 18_906;
 const packed = (name) => gzipSync(readFileSync(new URL(name, dist)), { level: 9 }).length;
 
 describe('the built page', () => {
