@@ -7,6 +7,7 @@ Exits with 1 where a number differs by more than single precision and Blender's 
 """
 import csv
 import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -37,8 +38,11 @@ json.dump(found, open(out, "w"))
 def in_blender(glb, rate, frames, work):
     script, out = work / "inside.py", work / "found.json"
     script.write_text(INSIDE)
+    # Blender looks for its Python's packages beside the first python3 in PATH, which may be another Python than Debian's.
+    debian = {**os.environ, "PATH": "/usr/bin:" + os.environ["PATH"]}
     ran = subprocess.run(["blender", "--background", "--factory-startup", "--python-exit-code", "1", "--python", script,
-                          "--", glb, str(rate), str(frames), out], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+                          "--", glb, str(rate), str(frames), out], env=debian, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                         text=True)
     if ran.returncode != 0:
         sys.exit(f"blender ended with {ran.returncode}:\n{ran.stdout}")
     return json.loads(out.read_text())
